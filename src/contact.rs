@@ -13,7 +13,7 @@ use crate::gap::{Cost, Gap, Shape};
 use crate::material::{Elasticity, Material, PlaneState};
 use crate::quadrature::{Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
-use crate::{ContactError, Ends, Interval, ParametricProfile, Real};
+use crate::{ContactError, Ends, InputError, Interval, ParametricProfile, Real, SolveError};
 use edges::{Conditions, Given};
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -76,7 +76,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// written.
     ///
     /// # Errors
-    /// [`ContactError::Profile`], [`ContactError::NoCommonRange`].
+    /// [`InputError::Profile`], [`InputError::NoCommonRange`].
     pub fn new(
         lower: &'b dyn ParametricProfile<T>,
         upper: &'b dyn ParametricProfile<T>,
@@ -218,19 +218,19 @@ impl<'b, T: Real> Contact<'b, T> {
     /// Sets a function that watches a solve, and may end it. It is called with the cost so far and
     /// the span of `x` last sampled, each time that the bodies are sampled and before each new set
     /// of contacts is tried. If it returns `ControlFlow::Break`, the solve ends with
-    /// [`ContactError::Cancelled`]; so does the search for the [largest
+    /// [`SolveError::Cancelled`]; so does the search for the [largest
     /// stress](crate::stress::Subsurface::max_shear) below a solution.
     ///
     /// ```
     /// use linecontact::profile::Parabola;
-    /// use linecontact::{Contact, ContactError, Control, Flat};
+    /// use linecontact::{Contact, ContactError, Control, Flat, SolveError};
     /// use std::ops::ControlFlow;
     ///
     /// let parabola = Parabola::new(1.0, [-1.0, 1.0])?;
     /// let stop = |_, _| ControlFlow::Break(());
     /// let contact = Contact::new(&Flat, &parabola)?.watch(&stop);
     /// let error = contact.solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
-    /// assert!(matches!(error, ContactError::Cancelled { .. }));
+    /// assert!(matches!(error, ContactError::Solve(SolveError::Cancelled { .. })));
     /// # Ok::<(), ContactError<f64>>(())
     /// ```
     #[must_use]
@@ -258,7 +258,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// the uncertainty of the samples; outside, if it changes the height by 1e-7 F/κ or more.
     ///
     /// The number of evaluations is proportional to the reach of the load over the resolution
-    /// ([`Cost::heights`]), within the budget of [`ContactError::BudgetSpent`]. The sampling does
+    /// ([`Cost::heights`]), within the budget of [`SolveError::BudgetSpent`]. The sampling does
     /// not depend on the declared [convexity](crate::Convexity), except on pieces that are
     /// [`Straight`](crate::Convexity::Straight). The resolution does not apply with
     /// [`single_interval`](Self::single_interval), which checks nothing, nor in contacts with other
@@ -319,8 +319,10 @@ impl<'b, T: Real> Contact<'b, T> {
         let kappa = self.kappa;
         if !(kappa.is_finite() && kappa > T::zero()) {
             return Err(match self.stiffness {
-                Stiffness::Modulus(modulus) => ContactError::InvalidModulus { modulus },
-                _ => ContactError::InvalidKappa { kappa },
+                Stiffness::Modulus(modulus) => {
+                    ContactError::Input(InputError::InvalidModulus { modulus })
+                }
+                _ => ContactError::Input(InputError::InvalidKappa { kappa }),
             });
         }
         if let Some(start) = self.start {
@@ -328,7 +330,7 @@ impl<'b, T: Real> Contact<'b, T> {
         }
         self.gap.check_resolution(T::zero())?;
         if self.edge_pressure.is_some() && !matches!(control, Control::Load(_)) {
-            return Err(ContactError::EdgePressureLoad);
+            return Err(InputError::EdgePressureLoad.into());
         }
         Ok(())
     }
@@ -346,7 +348,7 @@ impl<'b, T: Real> Contact<'b, T> {
         if !may_pull {
             check_positive("load", load)?;
         } else if !load.is_finite() {
-            return Err(ContactError::InvalidLoad { quantity: "load", value: load });
+            return Err(InputError::InvalidLoad { quantity: "load", value: load }.into());
         }
         Ok(Conditions { kappa: self.kappa, edges, given: Given::Load(load) })
     }
@@ -369,11 +371,13 @@ impl<'b, T: Real> Contact<'b, T> {
         for edge in self.edges {
             match edge {
                 Edge::Adhesive(work) if !(work.is_finite() && work >= T::zero()) => {
-                    return Err(ContactError::InvalidAdhesion { work });
+                    return Err(InputError::InvalidAdhesion { work }.into());
                 }
                 Edge::Fixed(x) | Edge::FreeUntil(x) if !x.is_finite() => {
                     let [left, right] = [x, x];
-                    return Err(ContactError::InvalidLimits { interval: Interval { left, right } });
+                    return Err(
+                        InputError::InvalidLimits { interval: Interval { left, right } }.into()
+                    );
                 }
                 _ => {}
             }
@@ -386,7 +390,7 @@ impl<'b, T: Real> Contact<'b, T> {
             if let Edge::Fixed(x) | Edge::FreeUntil(x) = edge
                 && !(x >= range[0] && x <= range[1])
             {
-                return Err(ContactError::OutsideBodies { x, range });
+                return Err(SolveError::OutsideBodies { x, range }.into());
             }
         }
         Ok(self.edges)
@@ -406,7 +410,7 @@ pub(crate) fn check_positive<T: Real>(
     if value.is_finite() && value > T::zero() && !is_subnormal(value) {
         Ok(())
     } else {
-        Err(ContactError::InvalidLoad { quantity, value })
+        Err(InputError::InvalidLoad { quantity, value }.into())
     }
 }
 
@@ -419,7 +423,7 @@ pub(crate) fn check_within<T: Real>(
     for (x, beyond) in [(left, ends.left - left), (right, right - ends.right)] {
         if beyond > rounding {
             let range = [ends.left, ends.right];
-            return Err(ContactError::OutsideBodies { x, range });
+            return Err(SolveError::OutsideBodies { x, range }.into());
         }
     }
     Ok(())
@@ -430,7 +434,7 @@ pub(crate) fn check<T: Real>(interval: Interval<T>) -> Result<(), ContactError<T
     if left.is_finite() && right.is_finite() && left < right {
         Ok(())
     } else {
-        Err(ContactError::InvalidLimits { interval })
+        Err(InputError::InvalidLimits { interval }.into())
     }
 }
 

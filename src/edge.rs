@@ -23,7 +23,7 @@ pub enum Edge<T> {
     Free,
     /// Sharp corner at this `x`, where the limit stays. The pressure may be infinite there. If it
     /// would be negative, or the contact ends before the corner, the body lifts off
-    /// ([`ContactError::LiftsOff`](crate::ContactError::LiftsOff)). Between two such corners the
+    /// ([`SolveError::LiftsOff`](crate::SolveError::LiftsOff)). Between two such corners the
     /// load must be positive, and the contacts may be several, unless [a single
     /// interval](crate::Contact::single_interval) is asked for: the paper's fixed limits.
     Fixed(T),

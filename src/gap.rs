@@ -23,7 +23,10 @@ pub(crate) use survey::{Asked, Guides, LowPoint, Survey, VAGUE, crossing};
 use crate::profile::{Convexity, Piece};
 use crate::real::same;
 use crate::search::LimitSearch;
-use crate::{Body, ContactError, CurvePoint, ParametricProfile, ProfileError, Real, Side};
+use crate::{
+    Body, ContactError, CurvePoint, InputError, ParametricProfile, ProfileError, Real, Side,
+    SolveError,
+};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -95,7 +98,7 @@ impl<'b, T: Real> Surface<'b, T> {
         };
         match pieces {
             Ok((joined, Piece { k, ends, .. })) => Ok(Self { shape, joined, k, ends }),
-            Err(source) => Err(ContactError::Profile { body, source }),
+            Err(source) => Err(InputError::Profile { body, source }.into()),
         }
     }
 
@@ -223,7 +226,7 @@ impl<'b, T: Real> Gap<'b, T> {
         let [lower, upper] = [bodies[0].extent(), bodies[1].extent()];
         let range = [lower[0].max(upper[0]), lower[1].min(upper[1])];
         if range[0] >= range[1] {
-            return Err(ContactError::NoCommonRange { lower, upper });
+            return Err(InputError::NoCommonRange { lower, upper }.into());
         }
         let number = MADE.fetch_add(1, Ordering::Relaxed);
         let (tilt, watch, resolution) = (T::zero(), None, None);
@@ -248,7 +251,8 @@ impl<'b, T: Real> Gap<'b, T> {
     ) -> Result<(), ContactError<T>> {
         match self.watch {
             Some(watch) if watch(cost, last).is_break() => {
-                Err(ContactError::Cancelled { evaluations: cost.evaluations + cost.heights, last })
+                Err(SolveError::Cancelled { evaluations: cost.evaluations + cost.heights, last }
+                    .into())
             }
             _ => Ok(()),
         }
@@ -381,7 +385,7 @@ impl<'b, T: Real> Gap<'b, T> {
         let misses = x < from && index.checked_sub(1).is_some_and(apart);
         if from >= to || misses || (x > to && index + 1 < count) {
             let source = ProfileError::Pieces { count, index };
-            return Err(ContactError::Profile { body, source });
+            return Err(InputError::Profile { body, source }.into());
         }
         Ok((index, piece))
     }
@@ -420,7 +424,7 @@ impl<'b, T: Real> Gap<'b, T> {
         if evaluations <= budget {
             Ok(())
         } else {
-            Err(ContactError::BudgetSpent { evaluations, budget, last })
+            Err(SolveError::BudgetSpent { evaluations, budget, last }.into())
         }
     }
 

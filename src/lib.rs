@@ -111,7 +111,7 @@ mod sweep;
 pub use contact::{Contact, Control, EdgePressure};
 pub use edge::Edge;
 pub use ends::{Ends, Side};
-pub use error::{Body, ContactError, ErrorKind};
+pub use error::{Body, ContactError, EvaluationError, InputError, SolveError};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
 pub use material::{Material, PlaneState, Reference, References};

@@ -12,7 +12,7 @@
 //! half-plane: limits and pressure are as exact for unlike bodies as for like ones. Friction would
 //! couple the two directions (Johnson, §7.2).
 
-use crate::{Body, ContactError, Real};
+use crate::{Body, ContactError, InputError, Real};
 
 /// Isotropic elastic material, or a rigid body.
 ///
@@ -102,8 +102,8 @@ impl PlaneState {
     /// Returns the contact modulus E* of two bodies, a pressure.
     ///
     /// # Errors
-    /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`];
-    /// [`ContactError::BothRigid`].
+    /// [`InputError::InvalidYoungsModulus`], [`InputError::InvalidPoissonRatio`];
+    /// [`InputError::BothRigid`].
     pub fn contact_modulus<T: Real>(
         self,
         lower: Material<T>,
@@ -132,7 +132,7 @@ impl<T: Real> Elasticity<T> {
         let upper = Self::of(Body::Upper, materials[1], state)?;
         let compliance = lower.compliance + upper.compliance;
         if compliance.is_zero() {
-            return Err(ContactError::BothRigid);
+            return Err(InputError::BothRigid.into());
         }
         Ok(([lower, upper], T::one() / compliance))
     }
@@ -154,7 +154,7 @@ impl<T: Real> Elasticity<T> {
         };
         let compliance = one / modulus;
         if !(modulus.is_finite() && modulus > zero && compliance.is_finite()) {
-            return Err(ContactError::InvalidYoungsModulus { body, modulus });
+            return Err(InputError::InvalidYoungsModulus { body, modulus }.into());
         }
         checked_ratio(ratio)?;
         Ok(match state {
@@ -169,5 +169,5 @@ impl<T: Real> Elasticity<T> {
 /// Refuses a number that cannot be a Poisson's ratio.
 pub(crate) fn checked_ratio<T: Real>(ratio: T) -> Result<T, ContactError<T>> {
     let is_valid = ratio >= T::zero() && ratio <= T::of(0.5);
-    if is_valid { Ok(ratio) } else { Err(ContactError::InvalidPoissonRatio { ratio }) }
+    if is_valid { Ok(ratio) } else { Err(InputError::InvalidPoissonRatio { ratio }.into()) }
 }

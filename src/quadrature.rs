@@ -55,7 +55,8 @@ pub trait Quadrature<T: Real>: Send + Sync {
     /// Creates an integrator with these settings.
     ///
     /// # Errors
-    /// [`ContactError::InvalidSegments`], [`ContactError::InvalidTolerance`] for settings that
+    /// [`InputError::InvalidSegments`](crate::InputError::InvalidSegments),
+    /// [`InputError::InvalidTolerance`](crate::InputError::InvalidTolerance) for settings that
     /// cannot be used.
     fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>>;
 

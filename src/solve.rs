@@ -26,7 +26,7 @@ use crate::gap::{Asked, Cost, Gap};
 use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, complete};
 use crate::solution::{ContactState, Outcome, Report, Solution, Solved, Start, certify};
-use crate::{ContactError, Edge, Ends, Interval, Real};
+use crate::{ContactError, Edge, Ends, InputError, Interval, Real, SolveError};
 use by_load::{ByLoad, Quantity};
 use edges::{Conditions, Given};
 use equations::Equations;
@@ -60,27 +60,28 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`Solution::pressure`] computes the pressure.
     ///
     /// # Errors
-    /// [`ContactError::InvalidLoad`], [`ContactError::InvalidKappa`],
-    /// [`ContactError::InvalidModulus`], [`ContactError::InvalidLimits`],
-    /// [`ContactError::InvalidAdhesion`], [`ContactError::InvalidEdgePressure`],
-    /// [`ContactError::EdgePressureLoad`], [`ContactError::BothLimitsGiven`],
-    /// [`ContactError::PeakEdge`], [`ContactError::InvalidSegments`],
-    /// [`ContactError::InvalidTolerance`], [`ContactError::InvalidResolution`] for invalid
-    /// settings; [`ContactError::NotConvex`] for a false declaration;
-    /// [`ContactError::NoFirstContact`], [`ContactError::DomainTooShort`],
-    /// [`ContactError::HalfWidthTooLarge`], [`ContactError::PeakTooHigh`],
-    /// [`ContactError::NoEquilibrium`], [`ContactError::OutsideBodies`], [`ContactError::PullOff`]
-    /// for bodies and loads that do not go together; [`ContactError::Profile`],
-    /// [`ContactError::Inversion`] from sampling the bodies; [`ContactError::LimitSearch`],
-    /// [`ContactError::EdgePressureNotMet`], [`ContactError::Overflow`], [`ContactError::NoPeak`],
-    /// [`ContactError::InJump`], [`ContactError::BudgetSpent`],
-    /// [`ContactError::InconsistentHeights`] from the search; [`ContactError::InvalidMoment`],
-    /// [`ContactError::TiltNotSupported`], [`ContactError::TiltNotFound`] with a given moment;
-    /// [`ContactError::InvalidYoungsModulus`], [`ContactError::InvalidPoissonRatio`],
-    /// [`ContactError::BothRigid`] for materials; [`ContactError::NoMaterials`],
-    /// [`ContactError::InvalidReference`], [`ContactError::ApproachTooLarge`],
-    /// [`ContactError::ApproachFalls`], [`ContactError::NoLoadDerivative`] with a given approach;
-    /// the errors of [`Solution::certify`] if [`certified`](Self::certified).
+    /// [`InputError::InvalidLoad`], [`InputError::InvalidKappa`],
+    /// [`InputError::InvalidModulus`], [`InputError::InvalidLimits`],
+    /// [`InputError::InvalidAdhesion`], [`InputError::InvalidEdgePressure`],
+    /// [`InputError::EdgePressureLoad`], [`InputError::BothLimitsGiven`],
+    /// [`InputError::PeakEdge`], [`InputError::InvalidSegments`],
+    /// [`InputError::InvalidTolerance`], [`InputError::InvalidResolution`] for invalid
+    /// settings; [`InputError::NotConvex`] for a false declaration;
+    /// [`SolveError::NoFirstContact`], [`SolveError::DomainTooShort`],
+    /// [`SolveError::HalfWidthTooLarge`], [`SolveError::PeakTooHigh`],
+    /// [`SolveError::NoEquilibrium`], [`SolveError::OutsideBodies`], [`SolveError::PullOff`]
+    /// for bodies and loads that do not go together; [`InputError::Profile`],
+    /// [`SolveError::Inversion`] from sampling the bodies; [`SolveError::LimitSearch`],
+    /// [`SolveError::EdgePressureNotMet`], [`SolveError::Overflow`], [`SolveError::NoPeak`],
+    /// [`SolveError::InJump`], [`SolveError::BudgetSpent`],
+    /// [`InputError::InconsistentHeights`] from the search; [`InputError::InvalidMoment`],
+    /// [`InputError::TiltNotSupported`], [`SolveError::TiltNotFound`] with a given moment;
+    /// [`InputError::InvalidYoungsModulus`], [`InputError::InvalidPoissonRatio`],
+    /// [`InputError::BothRigid`] for materials; [`InputError::NoMaterials`],
+    /// [`InputError::InvalidReference`], [`SolveError::ApproachTooLarge`],
+    /// [`SolveError::ApproachFalls`],
+    /// [`EvaluationError::NoLoadDerivative`](crate::EvaluationError::NoLoadDerivative) with a given
+    /// approach; the errors of [`Solution::certify`] if [`certified`](Self::certified).
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
         let (mut integrator, mut workspace) = (self.quadrature.integrator()?, Workspace::new());
         let mut cost = Cost::default();
@@ -127,11 +128,11 @@ fn find_checked<T: Real>(
     // A width may be less than the rounding of x, and its load less than any number.
     check(found.interval)?;
     if found.strengths.into_iter().any(|strength| !strength.is_finite()) {
-        return Err(ContactError::Overflow { interval: found.interval });
+        return Err(SolveError::Overflow { interval: found.interval }.into());
     }
     let known = found.error.is_none_or(|error| error >= T::zero());
     if !known && found.adhesive == Ends::both(false) {
-        return Err(ContactError::Overflow { interval: found.interval });
+        return Err(SolveError::Overflow { interval: found.interval }.into());
     }
     found.ends = contact.ends();
     let (gap, integrator) = (contact.gap.tilted(found.tilt), &mut *work.integrator);
@@ -178,7 +179,7 @@ fn find_under<T: Real>(
         (Control::Approach { approach: wanted, references }, _) => {
             let bodies = contact.elasticity()?;
             if bodies.is_none() {
-                return Err(ContactError::NoMaterials);
+                return Err(InputError::NoMaterials.into());
             }
             check_positive("approach", wanted)?;
             ByLoad::find(contact, Quantity::Approach { references, bodies }, wanted, work)
@@ -198,12 +199,13 @@ fn may_have_several<T: Real>(
     error: &ContactError<T>,
     work: &mut Work<'_, T>,
 ) -> Result<bool, ContactError<T>> {
-    use ContactError::{HalfWidthTooLarge, NoEquilibrium, Overlap, Tension};
+    use SolveError::{HalfWidthTooLarge, NoEquilibrium, Overlap, Tension};
     let serves = panels::is_panels(work.integrator) && contact.search.is_none();
     if !serves || contact.single_interval || contact.edges.are_adhesive() {
         return Ok(false);
     }
-    match *error {
+    let ContactError::Solve(ref failed) = *error else { return Ok(false) };
+    match *failed {
         NoEquilibrium { .. } | Overlap { .. } | Tension { .. } => Ok(true),
         // Several contacts may be wider.
         HalfWidthTooLarge { wanted, .. } if !contact.gap.is_convex() => {

@@ -6,7 +6,7 @@ use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
 use crate::solution::{PartialSlip, Shear, Solution};
 use crate::solve::{Work, Workspace, find};
-use crate::{Contact, ContactError, ErrorKind, Real};
+use crate::{Contact, ContactError, InputError, Real, SolveError};
 use std::sync::Arc;
 
 /// A solver with a workspace of its own, which starts from the last contact it has found.
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// the size of the scenes, solving allocates nothing, provided that each solution is dropped before
 /// the next solve. A solution that is kept keeps its samples, and the solver goes on with a copy.
 ///
-/// If the search from the last contact fails, with any error but [`ContactError::Cancelled`], the
+/// If the search from the last contact fails, with any error but [`SolveError::Cancelled`], the
 /// solver forgets its state and searches from scratch, as [`Contact::solve`] does: it refuses the
 /// same scenes. The [cost](Solution::cost) is the sum of both searches.
 ///
@@ -75,7 +75,10 @@ impl<T: Real> Solver<T> {
         loop {
             match self.search(contact, control, is_warm, &mut spent) {
                 // The last contact may be the cause of the failure.
-                Err(error) if is_warm && !matches!(error, ContactError::Cancelled { .. }) => {
+                Err(error)
+                    if is_warm
+                        && !matches!(error, ContactError::Solve(SolveError::Cancelled { .. })) =>
+                {
                     is_warm = false;
                 }
                 found => return found,
@@ -138,12 +141,12 @@ impl<T: Real> Solver<T> {
         let normal = self.solve(contact, control)?;
         let (sticking, load) = contact.sticking(&normal, &shear)?;
         let stick = self.solve(&sticking, Control::Load(load)).map_err(|error| {
-            if shear.tension.is_zero() || error.kind() != ErrorKind::Solve {
+            if shear.tension.is_zero() || !matches!(error, ContactError::Solve(_)) {
                 return error;
             }
             let why =
                 "the tension is so large that the bodies would stick off each other; lower it";
-            ContactError::SlipNotSupported { why }
+            ContactError::Input(InputError::SlipNotSupported { why })
         })?;
         PartialSlip::new(normal, stick, shear)
     }
@@ -167,10 +170,10 @@ impl<'b, T: Real> Contact<'b, T> {
     /// materials are unknown. A corner that is [`Edge::Fixed`](crate::Edge::Fixed) may slip.
     ///
     /// # Errors
-    /// The errors of [`solve`](Self::solve); [`ContactError::InvalidSlipFriction`],
-    /// [`ContactError::InvalidShear`], [`ContactError::SlipsEverywhere`],
-    /// [`ContactError::SticksEverywhere`], [`ContactError::ReversedSlip`],
-    /// [`ContactError::UnlikeBodies`]; [`ContactError::SlipNotSupported`] with adhesion, and with
+    /// The errors of [`solve`](Self::solve); [`InputError::InvalidSlipFriction`],
+    /// [`InputError::InvalidShear`], [`SolveError::SlipsEverywhere`],
+    /// [`SolveError::SticksEverywhere`], [`SolveError::ReversedSlip`],
+    /// [`InputError::UnlikeBodies`]; [`InputError::SlipNotSupported`] with adhesion, and with
     /// edges by the paper's Eq. (6).
     pub fn partial_slip(
         &self,

@@ -7,7 +7,10 @@
 //! ISO/TS 16281, two points suffice. If two test solves between two points show an error above the
 //! tolerance, a point is added between them.
 
-use crate::{Contact, ContactError, Control, Interval, Real, References, Solution, Solver};
+use crate::{
+    Contact, ContactError, Control, EvaluationError, InputError, Interval, Real, References,
+    Solution, SolveError, Solver,
+};
 
 /// Largest number of points of a table.
 const MAX_POINTS: usize = 4096;
@@ -116,10 +119,10 @@ impl<T: Real> SpringTable<T> {
     /// is reached, it may not be met: [`error`](Self::error) returns the error found.
     ///
     /// # Errors
-    /// [`ContactError::InvalidLoad`] for a range that is not positive and rising;
-    /// [`ContactError::InvalidTolerance`] for a tolerance that is not above 0 and below 1; the
+    /// [`InputError::InvalidLoad`] for a range that is not positive and rising;
+    /// [`InputError::InvalidTolerance`] for a tolerance that is not above 0 and below 1; the
     /// errors of [`Contact::solve`], [`Solution::approach`], [`Solution::stiffness`] and
-    /// [`Solution::peak`]; [`ContactError::ApproachFalls`].
+    /// [`Solution::peak`]; [`SolveError::ApproachFalls`].
     pub fn new(
         contact: &Contact<'_, T>,
         references: &References<T>,
@@ -132,10 +135,10 @@ impl<T: Real> SpringTable<T> {
             let largest_load = "largest load, which must be more than the least,";
             let (quantity, value) =
                 if is_least { ("least load", least) } else { (largest_load, largest) };
-            return Err(ContactError::InvalidLoad { quantity, value });
+            return Err(InputError::InvalidLoad { quantity, value }.into());
         }
         if !(tolerance > T::zero() && tolerance < T::one()) {
-            return Err(ContactError::InvalidTolerance { tolerance });
+            return Err(InputError::InvalidTolerance { tolerance }.into());
         }
         let mut solver = Solver::new();
         let mut solve = |load| node(&solver.solve(contact, Control::Load(load))?, references);
@@ -186,13 +189,13 @@ impl<T: Real> SpringTable<T> {
     /// Returns the state at an approach within the table, whose ends may be passed by rounding.
     ///
     /// # Errors
-    /// [`ContactError::OutsideTable`].
+    /// [`EvaluationError::OutsideTable`].
     pub fn at(&self, approach: T) -> Result<SpringPoint<T>, ContactError<T>> {
         let last = self.points.len() - 1;
         let range = [self.points[0].point.approach, self.points[last].point.approach];
         let rounding = T::of(4.0) * T::epsilon() * range[1];
         if !(approach >= range[0] - rounding && approach <= range[1] + rounding) {
-            return Err(ContactError::OutsideTable { approach, range });
+            return Err(EvaluationError::OutsideTable { approach, range }.into());
         }
         let approach = approach.max(range[0]).min(range[1]);
         let next = self.points.partition_point(|node| node.point.approach < approach);
@@ -209,7 +212,7 @@ fn node<T: Real>(
     let [approach, rate] = solution.approaching(references)?.with_rate()?;
     let load = solution.load();
     if !(rate > T::zero() && rate.is_finite()) {
-        return Err(ContactError::ApproachFalls { load, rate });
+        return Err(SolveError::ApproachFalls { load, rate }.into());
     }
     let rates = solution.load_rates()?;
     let half_widths = solution.intervals().iter().map(Interval::half_width);
@@ -218,7 +221,7 @@ fn node<T: Real>(
     let widening = widening.fold(T::zero(), |sum, rate| sum + rate);
     let (peak, growth) = match solution.peak() {
         Ok(peak) => (Some(peak.pressure), rates.pressure(peak.x)? / peak.pressure),
-        Err(ContactError::Singular { .. }) => (None, T::zero()),
+        Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => (None, T::zero()),
         Err(error) => return Err(error),
     };
     let stiffness = T::one() / rate;

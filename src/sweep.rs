@@ -23,7 +23,7 @@ const ROWS: usize = 64;
 /// rayon's current pool.
 ///
 /// ```
-/// use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, sweep};
+/// use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, InputError, sweep};
 ///
 /// let parabola = Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: k * k / 2.0, dx: 1.0, dy: k });
 /// let contact = Contact::new(&Flat, &parabola)?;
@@ -34,7 +34,7 @@ const ROWS: usize = 64;
 ///     |done| eprintln!("{done} of {}", loads.len()),
 /// );
 /// assert!((half_widths[0].as_ref().unwrap() - 0.2).abs() < 1e-15);
-/// assert!(matches!(half_widths[1], Err(ContactError::InvalidLoad { .. })));
+/// assert!(matches!(half_widths[1], Err(ContactError::Input(InputError::InvalidLoad { .. }))));
 /// assert!((half_widths[2].as_ref().unwrap() - 0.4).abs() < 1e-15);
 /// # Ok::<(), ContactError<f64>>(())
 /// ```

@@ -3,7 +3,10 @@
 use linecontact::autodiff::num_dual::Dual64;
 use linecontact::profile::SplineError;
 use linecontact::search::{Root, SearchError};
-use linecontact::{Body, ContactError, Edge, Ends, Interval, PiecewiseError, ProfileError, Real};
+use linecontact::{
+    Body, ContactError, Edge, Ends, EvaluationError, InputError, Interval, PiecewiseError,
+    ProfileError, Real, SolveError,
+};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use std::fmt::Display;
@@ -115,18 +118,52 @@ macro_rules! table {
     };
 }
 
+impl<T: Real + Named> Describe for ContactError<T> {
+    fn row(&self, py: Python<'_>) -> PyResult<Row> {
+        match self {
+            Self::Input(error) => error.row(py),
+            Self::Solve(error) => error.row(py),
+            Self::Evaluation(error) => error.row(py),
+        }
+    }
+}
+
 table! {
-    ContactError, "", CONTACT, transparent: [Shape, Pieces, Points];
-    Cancelled { evaluations, last };
+    InputError, "", INPUT, transparent: [Shape, Pieces, Points];
     Profile { body, source };
     NoCommonRange { lower, upper };
-    OutsideBodies { x, range };
-    Inversion { body, x, source };
     InvalidLoad { quantity, value };
     InvalidKappa { kappa };
     InvalidModulus { modulus };
     InvalidLimits { interval };
     InvalidEdgePressure { name, value };
+    InvalidSegments { segments, extrapolations };
+    InconsistentHeights { between, by_heights, by_slopes };
+    NotConvex { between, slopes };
+    InvalidTolerance { tolerance };
+    InvalidResolution { resolution, least };
+    InvalidAdhesion { work };
+    BothLimitsGiven { interval };
+    InvalidMoment { value };
+    TiltNotSupported { why };
+    PeakEdge { edge };
+    InvalidPoissonRatio { ratio };
+    InvalidYoungsModulus { body, modulus };
+    BothRigid {};
+    NoMaterials {};
+    InvalidReference { length };
+    InvalidFriction { coefficient };
+    InvalidSlipFriction { friction };
+    InvalidShear { quantity, value };
+    UnlikeBodies { beta };
+    SlipNotSupported { why };
+    EdgePressureLoad {};
+}
+table! {
+    SolveError, "", SOLVE, transparent: [];
+    Cancelled { evaluations, last };
+    OutsideBodies { x, range };
+    Inversion { body, x, source };
     NoFirstContact { x, slope };
     DomainTooShort { end, carried, load, half_width, peak, kappa_is_default };
     HalfWidthTooLarge { wanted, half_width, end, load, peak, kappa_is_default };
@@ -135,48 +172,30 @@ table! {
     BudgetSpent { evaluations, budget, last };
     LimitSearch { best, source };
     EdgePressureNotMet { best, at_a, at_b };
-    InvalidSegments { segments, extrapolations };
-    Singular { x };
-    InconsistentHeights { between, by_heights, by_slopes };
-    NotConvex { between, slopes };
     Tension { x, pressure, interval, load };
     LiftsOff { x, strength, interval, load };
     Overlap { x, gap, interval, load };
     FeatureMissed { x, slope, assumed };
     Unbalanced { x, strength, allowed };
     Undecided { x, evaluations, samples };
-    InvalidTolerance { tolerance };
-    InvalidResolution { resolution, least };
-    InvalidAdhesion { work };
-    BothLimitsGiven { interval };
-    InvalidMoment { value };
-    TiltNotSupported { why };
     TiltNotFound { load, at, reached, tilt, ends };
     PullOff { load, least };
-    PeakEdge { edge };
     PeakTooHigh { wanted, half_width, found, end, load, kappa_is_default };
     NoPeak { wanted, half_width, found };
     InJump { wanted, load, below, above };
-    AboveSurface { x, depth };
-    InvalidPoissonRatio { ratio };
-    InvalidYoungsModulus { body, modulus };
-    BothRigid {};
-    NoMaterials {};
-    InvalidReference { length };
     ApproachTooLarge { wanted, approach, load };
-    OutsideTable { approach, range };
     ApproachFalls { load, rate };
-    InvalidFriction { coefficient };
-    InvalidSlipFriction { friction };
-    InvalidShear { quantity, value };
     SlipsEverywhere { force, limit };
     SticksEverywhere { force, limit };
     ReversedSlip { zone, contact };
-    UnlikeBodies { beta };
-    SlipNotSupported { why };
+}
+table! {
+    EvaluationError, "", EVALUATION, transparent: [];
+    Singular { x };
+    AboveSurface { x, depth };
+    OutsideTable { approach, range };
     InvalidPosition { x, inside, interval };
     NoLoadDerivative { why };
-    EdgePressureLoad {};
     LengthMismatch { x, pressures };
     Integral { x, panels };
     Unresolved { x, pressure, error };
@@ -258,7 +277,7 @@ pub fn missing_derivatives(py: Python<'_>, count: usize) -> PyErr {
 /// Returns all classes in the table, with the names of their attributes.
 #[pyfunction]
 pub fn variants() -> Vec<(&'static str, Vec<&'static str>)> {
-    let tables = [CONTACT, PROFILE, PIECEWISE, SPLINE, SEARCH];
+    let tables = [INPUT, SOLVE, EVALUATION, PROFILE, PIECEWISE, SPLINE, SEARCH];
     tables
         .into_iter()
         .flatten()

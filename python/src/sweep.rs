@@ -5,7 +5,7 @@ use crate::control::{ReferenceRow, control, references};
 use crate::errors;
 use crate::quantity::{Asked, NAMES, Quantity};
 use crate::scene::Scene;
-use linecontact::{ContactError, Control, References, Solver};
+use linecontact::{ContactError, Control, EvaluationError, References, Solver};
 use numpy::PyArrayLike1;
 use pyo3::exceptions::{PyException, PyValueError};
 use pyo3::prelude::*;
@@ -48,7 +48,9 @@ fn row(
                 match asked.value(quantity) {
                     Ok(value) => *number = value,
                     // At a corner an infinite peak is a result, not a failure.
-                    Err(ContactError::Singular { .. }) if quantity == Quantity::PeakPressure => {
+                    Err(ContactError::Evaluation(EvaluationError::Singular { .. }))
+                        if quantity == Quantity::PeakPressure =>
+                    {
                         *number = f64::INFINITY;
                     }
                     Err(error) => {

@@ -1,6 +1,6 @@
 //! Edges by the paper's conditions, Eq. (6).
 
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, InputError, Interval, Real, SolveError};
 
 /// Conditions of the paper at the edges, Eq. (6): `|P(a - ε_a) - A| ≤ ε₁` and
 /// `|P(ε_b - b) - B| ≤ ε₂`.
@@ -68,7 +68,7 @@ impl<T: Real> EdgePressure<T> {
         if at_a.abs() <= self.tolerance_a && at_b.abs() <= self.tolerance_b {
             Ok(())
         } else {
-            Err(ContactError::EdgePressureNotMet { best: on, at_a, at_b })
+            Err(SolveError::EdgePressureNotMet { best: on, at_a, at_b }.into())
         }
     }
 
@@ -83,7 +83,7 @@ impl<T: Real> EdgePressure<T> {
         ];
         for (name, value, positive) in entries {
             if !value.is_finite() || (positive && value <= T::zero()) {
-                return Err(ContactError::InvalidEdgePressure { name, value });
+                return Err(InputError::InvalidEdgePressure { name, value }.into());
             }
         }
         Ok(())

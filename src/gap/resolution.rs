@@ -2,7 +2,7 @@
 
 use super::Gap;
 use crate::real::is_finite;
-use crate::{ContactError, Real};
+use crate::{ContactError, InputError, Real};
 use num_traits::ToPrimitive;
 
 /// Full width at half height of the narrowest feature that is seen by default, as a share of the
@@ -47,12 +47,12 @@ impl<T: Real> Gap<'_, T> {
     /// Checks the resolution against the rounding at an abscissa.
     ///
     /// # Errors
-    /// [`ContactError::InvalidResolution`].
+    /// [`InputError::InvalidResolution`].
     pub(crate) fn check_resolution(&self, x: T) -> Result<(), ContactError<T>> {
         let least = T::of(ROUNDINGS) * T::epsilon() * x.abs();
         match self.resolution {
             Some(resolution) if !(resolution > least && is_finite(resolution)) => {
-                Err(ContactError::InvalidResolution { resolution, least })
+                Err(InputError::InvalidResolution { resolution, least }.into())
             }
             _ => Ok(()),
         }

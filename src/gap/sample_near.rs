@@ -21,7 +21,7 @@ use super::{Cost, Gap};
 use crate::profile::{Noise, Piece, first_turn};
 use crate::real::is_finite;
 use crate::search::{Bracket, SearchError, try_find_with_slope};
-use crate::{Body, ContactError, CurvePoint, ProfileError, Real, Side};
+use crate::{Body, ContactError, CurvePoint, InputError, ProfileError, Real, Side, SolveError};
 use curve_samples::CurveSamples;
 use inverse_hermite::{InverseHermite, is_between, newton};
 
@@ -291,7 +291,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             let mut noise = || Noise::near(&self.piece, found.k, &mut cost.evaluations).x;
             if beyond > rounding && beyond > T::of(4.0) * noise() {
                 let source = SearchError::NotConverged { x: found.k, residual: missed };
-                return Err(ContactError::Inversion { body: self.body, x: target, source });
+                return Err(SolveError::Inversion { body: self.body, x: target, source }.into());
             }
             curve_samples[i] = found;
         }
@@ -359,7 +359,9 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         };
         let root = try_find_with_slope(self.gap.inversion(), function, &bracket);
         let root = root.map_err(|error| {
-            error.or_else(|source| ContactError::Inversion { body, x: target, source })
+            error.or_else(|source| {
+                ContactError::Solve(SolveError::Inversion { body, x: target, source })
+            })
         })?;
         if let Some(sample) = best.filter(|best| best.k == root.x) {
             return Ok(sample);
@@ -392,20 +394,27 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             not_finite(self.body, "the slope Y'/X'", k, slope)
         } else {
             let source = ProfileError::TurnsBack { k, x, domain: self.piece.k };
-            ContactError::Profile { body: self.body, source }
+            ContactError::Input(InputError::Profile { body: self.body, source })
         }
     }
 }
 
 /// Replaces the error of a curve that runs the wrong way by one with the place where it turns.
 fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T> {
-    let ContactError::Profile { body, source: ProfileError::TurnsBack { k, .. } } = error else {
+    let ContactError::Input(InputError::Profile {
+        body,
+        source: ProfileError::TurnsBack { k, .. },
+    }) = error
+    else {
         return error;
     };
     let source = first_turn(piece.curve, piece.k, [piece.k[0], k]);
-    ContactError::Profile { body, source }
+    ContactError::Input(InputError::Profile { body, source })
 }
 
 fn not_finite<T: Real>(body: Body, quantity: &'static str, k: T, value: T) -> ContactError<T> {
-    ContactError::Profile { body, source: ProfileError::NotFinite { quantity, k, value } }
+    ContactError::Input(InputError::Profile {
+        body,
+        source: ProfileError::NotFinite { quantity, k, value },
+    })
 }

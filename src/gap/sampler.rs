@@ -7,7 +7,7 @@
 use super::{Cost, Gap};
 use crate::profile::Piece;
 use crate::search::{Bracket, SearchError, try_find_with_slope};
-use crate::{Body, ContactError, CurvePoint, ProfileError, Real, Side};
+use crate::{Body, ContactError, CurvePoint, InputError, ProfileError, Real, Side, SolveError};
 
 /// Source of values of the slope of the gap, with their cost.
 ///
@@ -48,8 +48,8 @@ impl<T: Real> Sampler<T> {
     /// left.
     ///
     /// # Errors
-    /// [`ContactError::OutsideBodies`], [`ContactError::Inversion`],
-    /// [`ContactError::Profile`].
+    /// [`SolveError::OutsideBodies`], [`SolveError::Inversion`],
+    /// [`InputError::Profile`].
     pub fn slope(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
         self.slope_from(gap, x, Side::Left)
     }
@@ -72,7 +72,7 @@ impl<T: Real> Sampler<T> {
     ) -> Result<T, ContactError<T>> {
         let range = gap.range();
         if !(x >= range[0] && x <= range[1]) {
-            return Err(ContactError::OutsideBodies { x, range });
+            return Err(SolveError::OutsideBodies { x, range }.into());
         }
         self.cost.samples += 1;
         let lower = self.body_slope(gap, Body::Lower, x, side)?;
@@ -107,7 +107,7 @@ impl<T: Real> Sampler<T> {
                 point.y + if missed.is_zero() { missed } else { missed * point.dy / point.dx };
             if !height.is_finite() {
                 let source = ProfileError::NotFinite { quantity: "Y", k, value: *height };
-                return Err(ContactError::Profile { body, source });
+                return Err(InputError::Profile { body, source }.into());
             }
         }
         let [lower, upper] = heights;
@@ -138,7 +138,7 @@ impl<T: Real> Sampler<T> {
         let (index, piece) = gap.piece_with(body, x, side)?;
         let fault = |quantity, k, value| {
             let source = ProfileError::NotFinite { quantity, k, value };
-            Err(ContactError::Profile { body, source })
+            Err(InputError::Profile { body, source }.into())
         };
         if let Some(slope) = piece.curve.slope_at(x) {
             // Such a body is given by x itself.
@@ -202,14 +202,14 @@ impl<T: Real> Sampler<T> {
         }
         if let Some(Near { k, point, .. }) = turned.or(Some(found).filter(turns)) {
             let source = ProfileError::TurnsBack { k, x: point.x, domain: piece.k };
-            return Err(ContactError::Profile { body, source });
+            return Err(InputError::Profile { body, source }.into());
         }
         let missed = found.point.x - x;
         // The residual of a strategy shows in the estimates, unless it is nearly as large as the
         // piece.
         if missed.abs() > T::of(0.1) * (ends[1] - ends[0]) {
             let source = SearchError::NotConverged { x: k, residual: missed };
-            return Err(ContactError::Inversion { body, x, source });
+            return Err(SolveError::Inversion { body, x, source }.into());
         }
         self.missed = self.missed.max(missed.abs());
         self.near[body as usize] = Some(found);
@@ -222,8 +222,8 @@ fn not_inverted<T: Real>(body: Body, x: T, source: SearchError<T>) -> ContactErr
     match source {
         SearchError::NotFinite { x: k, value } => {
             let source = ProfileError::NotFinite { quantity: "X", k, value };
-            ContactError::Profile { body, source }
+            ContactError::Input(InputError::Profile { body, source })
         }
-        source => ContactError::Inversion { body, x, source },
+        source => ContactError::Solve(SolveError::Inversion { body, x, source }),
     }
 }

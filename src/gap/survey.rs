@@ -28,7 +28,7 @@ mod segment;
 mod series;
 
 use super::{Cost, Gap};
-use crate::{Body as Which, ContactError, Interval, ProfileError, Real};
+use crate::{Body as Which, ContactError, InputError, Interval, ProfileError, Real};
 use body::Body;
 use convex::{Stretch, convex_stretches};
 pub(crate) use lows::{LowPoint, crossing};
@@ -145,7 +145,7 @@ impl<T: Real> Survey<T> {
     /// Takes a first look at both bodies.
     ///
     /// # Errors
-    /// [`ContactError::Profile`] with [`ProfileError::NotFinite`] inside the common range,
+    /// [`InputError::Profile`] with [`ProfileError::NotFinite`] inside the common range,
     /// [`ProfileError::TurnsBack`], [`ProfileError::Pieces`] or [`ProfileError::Derivative`].
     pub fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let is_again = !self.nodes.is_empty();
@@ -164,7 +164,9 @@ impl<T: Real> Survey<T> {
                 }
                 _ => Ok(()),
             });
-            found.map_err(|source| ContactError::Profile { body: which, source })?;
+            found.map_err(|source| {
+                ContactError::Input(InputError::Profile { body: which, source })
+            })?;
         }
         self.spent = cost.heights - before;
         self.join();
@@ -283,7 +285,9 @@ impl<T: Real> Survey<T> {
             let (before, spans) = (cost.heights, wanted[which as usize]);
             let found = body.refine(surface, self.range, spans, is_marked, &mut cost.heights);
             self.spent += cost.heights - before;
-            changes |= found.map_err(|source| ContactError::Profile { body: which, source })?;
+            changes |= found.map_err(|source| {
+                ContactError::Input(InputError::Profile { body: which, source })
+            })?;
         }
         Ok(changes)
     }

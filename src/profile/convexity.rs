@@ -11,7 +11,7 @@ use crate::Real;
 ///
 /// The slopes of the gap at the nodes of [`Panels`](crate::Panels) are checked: where they fall by
 /// more than their uncertainty, and by more than `sqrt(ε)` of the largest, the solve ends with
-/// [`ContactError::NotConvex`](crate::ContactError::NotConvex). The gap between the nodes or beyond
+/// [`InputError::NotConvex`](crate::InputError::NotConvex). The gap between the nodes or beyond
 /// the sampled span is not checked, nor is anything with another quadrature: there
 /// [`Solution::certify`](crate::Solution::certify) finds a wrong declaration. With
 /// [`Contact::resolution`](crate::Contact::resolution) the solver samples heights whatever was

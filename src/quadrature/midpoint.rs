@@ -30,7 +30,7 @@ mod moments;
 
 use super::{Estimate, Integrator, LoadCase, Moments, Quadrature, UNKEPT};
 use crate::gap::{Cost, Gap, Sampler};
-use crate::{ContactError, Interval, Real, Side};
+use crate::{ContactError, InputError, Interval, Real, Side};
 use level::{Level, Pole};
 use moments::moments;
 use std::sync::OnceLock;
@@ -115,7 +115,7 @@ impl<T: Real> Quadrature<T> for Midpoint {
     fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
         let Self { segments, extrapolations, .. } = *self;
         let Some(levels) = self.levels() else {
-            return Err(ContactError::InvalidSegments { segments, extrapolations });
+            return Err(InputError::InvalidSegments { segments, extrapolations }.into());
         };
         let (rule, on, moments) = (*self, None, None);
         let (sampler, sums) = (Sampler::default(), OnceLock::new());

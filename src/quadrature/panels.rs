@@ -28,7 +28,7 @@ mod treecode;
 use super::{Estimate, Integrator, LoadCase, Moments, Quadrature};
 use crate::gap::{Cost, Gap, Guides};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES};
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, InputError, Interval, Real, Side, SolveError};
 pub(crate) use cauchy_transform::{CauchyTransform, cauchy_transform};
 pub(crate) use edge_integrals::rise as rises_over;
 use hilbert_transform::{Edges, HilbertTransform, LANES};
@@ -173,7 +173,7 @@ impl Default for Panels {
 impl<T: Real> Quadrature<T> for Panels {
     fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
         if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
-            return Err(ContactError::InvalidTolerance { tolerance: T::of(self.tolerance) });
+            return Err(InputError::InvalidTolerance { tolerance: T::of(self.tolerance) }.into());
         }
         let tolerance = T::of(self.tolerance).max(T::of(FINEST) * T::epsilon());
         Ok(Box::new(PanelIntegrator {
@@ -327,7 +327,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         let rounding = rounding.min(T::epsilon().sqrt() * on.half_width());
         for x in [on.left, on.right] {
             if !(x >= range[0] - rounding && x <= range[1] + rounding) {
-                return Err(ContactError::OutsideBodies { x, range });
+                return Err(SolveError::OutsideBodies { x, range }.into());
             }
         }
         if self.decay.is_some() {

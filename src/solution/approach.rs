@@ -43,7 +43,9 @@ use super::pressure_integral::{Density, Integrals};
 use super::solved::Solved;
 use super::undeformed_gap::UndeformedGap;
 use crate::material::Elasticity;
-use crate::{ContactError, Interval, Real, Reference, References, Side, Solution};
+use crate::{
+    ContactError, InputError, Interval, Real, Reference, References, Side, Solution, SolveError,
+};
 
 /// Distances by which two bodies come together under load.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,9 +88,10 @@ impl<T: Real> Solution<'_, T> {
     /// ```
     ///
     /// # Errors
-    /// [`ContactError::NoMaterials`] without [`Contact::materials`](crate::Contact::materials);
-    /// [`ContactError::InvalidReference`]; [`ContactError::OutsideBodies`]; those of
-    /// [`pressure`](Self::pressure); [`ContactError::Integral`].
+    /// [`InputError::NoMaterials`] without [`Contact::materials`](crate::Contact::materials);
+    /// [`InputError::InvalidReference`]; [`SolveError::OutsideBodies`]; those of
+    /// [`pressure`](Self::pressure);
+    /// [`EvaluationError::Integral`](crate::EvaluationError::Integral).
     pub fn approach(&self, references: &References<T>) -> Result<Approach<T>, ContactError<T>> {
         self.approaching(references)?.of_all()
     }
@@ -152,12 +155,12 @@ impl<'s, T: Real> Approaching<'s, T> {
         bodies: Option<[Elasticity<T>; 2]>,
         references: &References<T>,
     ) -> Result<Self, ContactError<T>> {
-        let bodies = bodies.ok_or(ContactError::NoMaterials)?;
+        let bodies = bodies.ok_or(InputError::NoMaterials)?;
         let References { x, lower, upper } = *references;
         let half_width = solved.found.interval.half_width();
         let range = solved.gap.range();
         if !(x >= range[0] && x <= range[1]) {
-            return Err(ContactError::OutsideBodies { x, range });
+            return Err(SolveError::OutsideBodies { x, range }.into());
         }
         for (reference, body) in [lower, upper].into_iter().zip(bodies) {
             let (Reference::Depth(length) | Reference::Disc(length) | Reference::Length(length)) =
@@ -166,7 +169,7 @@ impl<'s, T: Real> Approaching<'s, T> {
             let is_large = !matches!(reference, Reference::Disc(radius) if radius <= half_width);
             let valid = length.is_finite() && length > T::zero() && is_large;
             if !(valid || body.compliance.is_zero()) {
-                return Err(ContactError::InvalidReference { length });
+                return Err(InputError::InvalidReference { length }.into());
             }
         }
         Ok(Self { solved, bodies, references: *references })

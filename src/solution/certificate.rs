@@ -16,7 +16,7 @@ mod series_bounds;
 use super::{ContactState, Solved};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{Several, System, rises_over};
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
 use balance::balanced;
 use cells::Cells;
 use inside::Inside;
@@ -88,7 +88,7 @@ pub struct Extremum<T> {
 }
 
 fn undecided<T: Real>(x: T, Cost { evaluations, samples, .. }: Cost) -> ContactError<T> {
-    ContactError::Undecided { x, evaluations, samples }
+    ContactError::Solve(SolveError::Undecided { x, evaluations, samples })
 }
 
 /// Certifies contacts, whatever quadrature they were found with.
@@ -189,7 +189,7 @@ impl<T: Real> Loaded<'_, T> {
         }
         if let Some(Extremum { x, value: gap }) = worst {
             let ContactState { interval, load, .. } = *found;
-            return Err(ContactError::Overlap { x, gap, interval, load });
+            return Err(SolveError::Overlap { x, gap, interval, load }.into());
         }
         Ok(closest)
     }
@@ -217,7 +217,7 @@ fn presses_at<T: Real>(
     for side in [Side::Right, Side::Left] {
         if at_corner[side] && strengths[side] < -found.zero_tolerance() * pressed {
             let (x, pressure) = (interval[side], -T::one() / T::zero());
-            return Err(ContactError::Tension { x, pressure, interval, load });
+            return Err(SolveError::Tension { x, pressure, interval, load }.into());
         }
     }
     Ok(())
@@ -342,7 +342,7 @@ mod tests {
         certified([-1e-3, 1.0, 0.1]).unwrap();
         let error = certified([-0.3, 1.0, 0.1]).unwrap_err();
         assert!(
-            matches!(error, ContactError::Tension { x, pressure, .. }
+            matches!(error, ContactError::Solve(SolveError::Tension { x, pressure, .. })
                 if (x - 1.0).abs() < 0.02 && pressure < 0.0),
             "{error}"
         );
@@ -350,7 +350,7 @@ mod tests {
         assert!((near.x - 0.1).abs() < 0.02 && near.value > 0.0, "{near:?}");
         let error = certified([0.6, 0.1, 0.1]).unwrap_err();
         assert!(
-            matches!(error, ContactError::Overlap { x, gap, .. }
+            matches!(error, ContactError::Solve(SolveError::Overlap { x, gap, .. })
                 if (x - 0.1).abs() < 0.02 && gap < 0.0),
             "{error}"
         );

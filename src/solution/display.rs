@@ -3,7 +3,7 @@
 use super::stress::Stress;
 use super::{Certificate, Extremum, Peak, Solution};
 use crate::rounded::{DIGITS, Rounded};
-use crate::{ContactError, Estimate, Interval, Real, Side};
+use crate::{ContactError, Estimate, EvaluationError, Interval, Real, Side};
 use std::fmt::{Display, Formatter, Result};
 
 fn rounded<T: Real>(value: T, f: &Formatter<'_>) -> Rounded {
@@ -37,7 +37,7 @@ impl<T: Real> Display for Solution<'_, T> {
                 f.write_str(", largest pressure ")?;
                 peak.fmt(f)?;
             }
-            Err(ContactError::Singular { x }) => {
+            Err(ContactError::Evaluation(EvaluationError::Singular { x })) => {
                 write!(f, ", pressure infinite at x = {}", rounded(x, f))?;
             }
             Err(_) => f.write_str(", largest pressure not found")?,

@@ -13,7 +13,7 @@
 use super::Solved;
 use super::pressure_integral::Integrals;
 use crate::gap::Sampler;
-use crate::{ContactError, Interval, Real, Solution};
+use crate::{ContactError, EvaluationError, Interval, Real, Solution, SolveError};
 
 impl<T: Real> Solution<'_, T> {
     /// Returns the distance between the loaded bodies at `x` outside the contact, measured along y:
@@ -23,9 +23,9 @@ impl<T: Real> Solution<'_, T> {
     /// Y of the bodies, and of `F/κ`.
     ///
     /// # Errors
-    /// [`ContactError::InvalidPosition`] strictly inside the contact;
-    /// [`ContactError::OutsideBodies`] beyond either body, and for NaN; those of
-    /// [`pressure`](Self::pressure), of sampling the gap, and [`ContactError::Integral`].
+    /// [`EvaluationError::InvalidPosition`] strictly inside the contact;
+    /// [`SolveError::OutsideBodies`] beyond either body, and for NaN; those of
+    /// [`pressure`](Self::pressure), of sampling the gap, and [`EvaluationError::Integral`].
     pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
         self.solved().gap_at(x)
     }
@@ -34,11 +34,11 @@ impl<T: Real> Solution<'_, T> {
     /// larger x. Zero at a free edge, infinite at an edge of infinite pressure.
     ///
     /// # Errors
-    /// As [`gap_at`](Self::gap_at), and [`ContactError::Singular`] at an edge that is not free.
+    /// As [`gap_at`](Self::gap_at), and [`EvaluationError::Singular`] at an edge that is not free.
     pub fn gap_slope(&self, x: T) -> Result<T, ContactError<T>> {
         let (edge, free) = self.solved().nearest_edge(x)?;
         if x == edge {
-            return if free { Ok(T::zero()) } else { Err(ContactError::Singular { x }) };
+            return if free { Ok(T::zero()) } else { Err(EvaluationError::Singular { x }.into()) };
         }
         let bodies = Sampler::default().slope(&self.gap, x)?;
         let pull = self.pressure()?.cauchy_transform()?.at(x, T::zero())[0].re;
@@ -68,12 +68,12 @@ impl<T: Real> Solved<'_, T> {
         let (contacts, range) = (self.contacts(), self.gap.range());
         let (next, inside) = Interval::find(contacts, x);
         if let Some(interval) = inside {
-            return Err(ContactError::InvalidPosition { x, inside: false, interval });
+            return Err(EvaluationError::InvalidPosition { x, inside: false, interval }.into());
         }
         let Interval { left, right } = self.found.interval;
         // A rounded edge may lie beyond the end of a body.
         if x != left && x != right && !(x >= range[0] && x <= range[1]) {
-            return Err(ContactError::OutsideBodies { x, range });
+            return Err(SolveError::OutsideBodies { x, range }.into());
         }
         let free = self.found.free;
         let before = next.checked_sub(1).map(|i| contacts[i].right);

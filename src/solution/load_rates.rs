@@ -3,7 +3,7 @@
 use super::pressure_integral::Density;
 use super::solved::Solved;
 use crate::quadrature::panels::LoadResponse;
-use crate::{ContactError, Ends, Interval, Real, Solution};
+use crate::{ContactError, Ends, EvaluationError, Interval, Real, Solution};
 
 /// Exact derivatives of a contact by its load per unit length F, at constant other data.
 ///
@@ -76,8 +76,8 @@ impl<T: Real> LoadRates<T> {
     /// Returns ∂P/∂F at a fixed `x`, one over a length; zero outside the contacts.
     ///
     /// # Errors
-    /// [`ContactError::Singular`] at the edges, where it is infinite;
-    /// [`ContactError::InvalidPosition`] for NaN.
+    /// [`EvaluationError::Singular`] at the edges, where it is infinite;
+    /// [`EvaluationError::InvalidPosition`] for NaN.
     pub fn pressure(&self, x: T) -> Result<T, ContactError<T>> {
         let contacts = match &self.punch {
             Touching::One(on) => std::slice::from_ref(on),
@@ -89,10 +89,12 @@ impl<T: Real> LoadRates<T> {
                 Touching::One(on) => T::frac_1_pi() / on.chebyshev_weight(x),
                 Touching::Several(punch) => punch.pressure(i, x),
             }),
-            Some(on) if x == on.left || x == on.right => Err(ContactError::Singular { x }),
+            Some(on) if x == on.left || x == on.right => {
+                Err(EvaluationError::Singular { x }.into())
+            }
             // NaN lies in no contact.
             Some(&interval) if x >= interval.left || x.partial_cmp(&x).is_none() => {
-                Err(ContactError::InvalidPosition { x, inside: true, interval })
+                Err(EvaluationError::InvalidPosition { x, inside: true, interval }.into())
             }
             _ => Ok(T::zero()),
         }
@@ -103,8 +105,8 @@ impl<T: Real> Solution<'_, T> {
     /// Returns the derivatives of pressure and limits by the load.
     ///
     /// # Errors
-    /// [`ContactError::NoLoadDerivative`] with adhesion; with edges by the paper's Eq. (6); with a
-    /// quadrature that does not know the derivatives of its integrals
+    /// [`EvaluationError::NoLoadDerivative`] with adhesion; with edges by the paper's Eq. (6); with
+    /// a quadrature that does not know the derivatives of its integrals
     /// ([`Midpoint`](crate::Midpoint)), unless both limits are given; where contacts appear or
     /// merge.
     pub fn load_rates(&self) -> Result<LoadRates<T>, ContactError<T>> {
@@ -116,7 +118,7 @@ impl<T: Real> LoadRates<T> {
     pub(crate) fn new(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
         let Solved { found, kappa, .. } = solved;
         let on = found.interval;
-        let refuse = |why| Err(ContactError::NoLoadDerivative { why });
+        let refuse = |why| Err(EvaluationError::NoLoadDerivative { why }.into());
         if found.adhesive != Ends::both(false) {
             return refuse("an adhesive edge moves with a singular pressure");
         }

@@ -1,7 +1,7 @@
 //! Mean pressure, moment and centre of pressure.
 
 use super::pressure_integral::Integrals;
-use crate::{ContactError, Interval, Real, Solution};
+use crate::{ContactError, InputError, Interval, Real, Solution, SolveError};
 
 impl<T: Real> Solution<'_, T> {
     /// Returns the mean pressure: F over the widths of all contacts, `F/(a + b)` for a single one.
@@ -15,23 +15,24 @@ impl<T: Real> Solution<'_, T> {
     /// F L.
     ///
     /// # Errors
-    /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`];
-    /// [`ContactError::Overflow`].
+    /// Those of [`pressure`](Self::pressure);
+    /// [`EvaluationError::Integral`](crate::EvaluationError::Integral); [`SolveError::Overflow`].
     pub fn moment(&self) -> Result<T, ContactError<T>> {
         let interval = self.hull();
         let moment = interval.half_width() * self.moment_by_half_width()?;
-        if moment.is_finite() { Ok(moment) } else { Err(ContactError::Overflow { interval }) }
+        if moment.is_finite() { Ok(moment) } else { Err(SolveError::Overflow { interval }.into()) }
     }
 
     /// Returns the centre of pressure, `∫ x P dx/F`, where the load acts.
     ///
     /// # Errors
-    /// Those of [`pressure`](Self::pressure); [`ContactError::Integral`];
-    /// [`ContactError::InvalidLoad`] if F is zero.
+    /// Those of [`pressure`](Self::pressure);
+    /// [`EvaluationError::Integral`](crate::EvaluationError::Integral); [`InputError::InvalidLoad`]
+    /// if F is zero.
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load();
         if load.is_zero() {
-            return Err(ContactError::InvalidLoad { quantity: "load", value: load });
+            return Err(InputError::InvalidLoad { quantity: "load", value: load }.into());
         }
         Ok(self.hull().half_width() * (self.moment_by_half_width()? / load))
     }

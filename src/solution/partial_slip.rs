@@ -20,7 +20,7 @@
 
 use super::stress::{Stress, Subsurface};
 use super::{Pressure, Solution};
-use crate::{Body, ContactError, Interval, Real};
+use crate::{Body, ContactError, Interval, Real, SolveError};
 
 /// Loads along the contact, and its friction.
 ///
@@ -79,7 +79,7 @@ impl<'b, T: Real> PartialSlip<'b, T> {
             };
             if !around.is_some_and(is_within) {
                 let contact = around.copied().unwrap_or(normal.hull());
-                return Err(ContactError::ReversedSlip { zone, contact });
+                return Err(SolveError::ReversedSlip { zone, contact }.into());
             }
         }
         Ok(Self { normal, stick, shear })

@@ -3,7 +3,7 @@
 use super::{ContactState, Solution, Solved};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Estimate, Integrator, LoadCase, panels};
-use crate::{ContactError, Interval, Real, Side};
+use crate::{ContactError, EvaluationError, Interval, Real, Side};
 use std::cmp::Ordering;
 
 /// Least number of grid points for the first search of a largest pressure.
@@ -53,10 +53,10 @@ impl<T: Real> Solution<'_, T> {
     /// [`cost`](Self::cost).
     ///
     /// # Errors
-    /// [`ContactError::Singular`] where the pressure is infinite: at a fixed edge, or where the
+    /// [`EvaluationError::Singular`] where the pressure is infinite: at a fixed edge, or where the
     /// slope of the gap jumps up ([`contacts`](Self::contacts) has the peaks of the other
-    /// contacts); [`ContactError::Unresolved`] from a [`Midpoint`](crate::Midpoint) of fewer than
-    /// four segments; those of sampling the gap.
+    /// contacts); [`EvaluationError::Unresolved`] from a [`Midpoint`](crate::Midpoint) of fewer
+    /// than four segments; those of sampling the gap.
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
         self.integrator.complete(&self.gap)?;
         let (_, x, Estimate { value: pressure, .. }) =
@@ -96,16 +96,16 @@ impl<T: Real> Solved<'_, T> {
             largest_pressure(self.integrator, self.gap, &load_case, (contact, on), cost)?;
         let Estimate { value: pressure, error } = top;
         if !pressure.is_finite() {
-            return Err(ContactError::Singular { x });
+            return Err(EvaluationError::Singular { x }.into());
         }
         if !error.is_finite() {
-            return Err(ContactError::Unresolved { x, pressure, error });
+            return Err(EvaluationError::Unresolved { x, pressure, error }.into());
         }
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
         // If both edges are singular, the error names the right one.
         for (side, outermost) in [(Side::Right, contact == last), (Side::Left, contact == 0)] {
             if outermost && !free[side] && strengths[side] > rounding {
-                return Err(ContactError::Singular { x: on[side] });
+                return Err(EvaluationError::Singular { x: on[side] }.into());
             }
         }
         Ok((x, top))

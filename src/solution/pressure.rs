@@ -6,7 +6,7 @@ use super::{ContactState, Solution};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{self, CauchyTransform};
 use crate::quadrature::{Estimate, Integrator, LoadCase};
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, EvaluationError, Interval, Real, Side, SolveError};
 
 /// Largest number of points of a contact that [`Pressure::sample`] takes.
 const MAX_POINTS: usize = 1 << 20;
@@ -76,18 +76,18 @@ impl<T: Real> Pressure<'_, T> {
     /// Returns `P(x)`, zero outside the contact and at a free edge.
     ///
     /// # Errors
-    /// [`ContactError::Unresolved`] where, between free edges, the estimated error is more than a
-    /// third of the pressure, as it becomes very close to an edge, unless `x` is the limit to
-    /// rounding; [`ContactError::Singular`] where the pressure is infinite;
-    /// [`ContactError::OutsideBodies`] beyond either body, and for NaN; those of sampling the gap
-    /// at `x`.
+    /// [`EvaluationError::Unresolved`] where, between free edges, the estimated error is more than
+    /// a third of the pressure, as it becomes very close to an edge, unless `x` is the limit to
+    /// rounding; [`EvaluationError::Singular`] where the pressure is infinite;
+    /// [`SolveError::OutsideBodies`] beyond either body, and for NaN; those of sampling the gap at
+    /// `x`.
     pub fn at(&self, x: T) -> Result<T, ContactError<T>> {
         let estimate = self.estimate(x, &mut Cost::default())?;
         let Estimate { value: pressure, error } = estimate;
         // With other edges a pressure may pass through zero, where only its absolute error counts.
         let free = self.load_case.free == Ends::both(true);
         if free && !estimate.is_resolved() && self.on.contains(x) && !self.is_at_limit(x) {
-            Err(ContactError::Unresolved { x, pressure, error })
+            Err(EvaluationError::Unresolved { x, pressure, error }.into())
         } else {
             Ok(pressure)
         }
@@ -106,10 +106,12 @@ impl<T: Real> Pressure<'_, T> {
     ///
     /// # Errors
     /// As [`estimate`](Self::estimate). The points before the failing one have been filled in.
-    /// [`ContactError::LengthMismatch`] if the two slices are not of the same length.
+    /// [`EvaluationError::LengthMismatch`] if the two slices are not of the same length.
     pub fn at_many(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
         if x.len() != pressures.len() {
-            return Err(ContactError::LengthMismatch { x: x.len(), pressures: pressures.len() });
+            return Err(
+                EvaluationError::LengthMismatch { x: x.len(), pressures: pressures.len() }.into()
+            );
         }
         self.fill(x, pressures, &mut Cost::default())
     }
@@ -184,21 +186,25 @@ impl<T: Real> Pressure<'_, T> {
     /// The error is the error of the quadrature plus the effect of the error of the limits.
     ///
     /// # Errors
-    /// As [`at`](Self::at), without [`ContactError::Unresolved`].
+    /// As [`at`](Self::at), without [`EvaluationError::Unresolved`].
     pub fn estimate(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
         let range = self.gap.range();
         if !(x >= range[0] && x <= range[1]) {
-            return Err(ContactError::OutsideBodies { x, range });
+            return Err(SolveError::OutsideBodies { x, range }.into());
         }
         let (_, Some(on)) = Interval::find(self.contacts, x) else {
             let is_held = |side| x == self.on[side] && !self.load_case.free[side];
             let nothing = Estimate { value: T::zero(), error: T::zero() };
             let singular = Side::BOTH.into_iter().any(is_held);
-            return if singular { Err(ContactError::Singular { x }) } else { Ok(nothing) };
+            return if singular {
+                Err(EvaluationError::Singular { x }.into())
+            } else {
+                Ok(nothing)
+            };
         };
         let mut estimate = self.integrator.estimate(self.gap, &self.load_case, x, cost)?;
         if !estimate.value.is_finite() {
-            return Err(ContactError::Singular { x });
+            return Err(EvaluationError::Singular { x }.into());
         }
         // If the limits move, P changes as under the load that would move them, by 1/(π w) for each
         // unit of it. The load is given, so the change is of second order, except at points so

@@ -20,7 +20,7 @@ mod graded_rule;
 
 use super::solved::Solved;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::{ContactError, Ends, Interval, Pressure, Real};
+use crate::{ContactError, Ends, EvaluationError, Interval, Pressure, Real};
 use graded_rule::GradedRule;
 use std::sync::OnceLock;
 
@@ -119,7 +119,9 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
             (&self.contacts[contact..=contact], |_, x, strength| kernel(x, strength));
         let fine = tolerance::<T>().min(T::of(64.0) * T::epsilon());
         match self.sum(one, fine, T::zero(), x, kernel) {
-            Err(ContactError::Integral { .. }) => self.sum(one, tolerance(), T::zero(), x, kernel),
+            Err(ContactError::Evaluation(EvaluationError::Integral { .. })) => {
+                self.sum(one, tolerance(), T::zero(), x, kernel)
+            }
             result => result,
         }
     }
@@ -177,7 +179,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
                 continue;
             }
             if left == 0 {
-                return Err(ContactError::Integral { x, panels: MAX_PANELS });
+                return Err(EvaluationError::Integral { x, panels: MAX_PANELS }.into());
             }
             left -= 1;
             pending.extend(halves.map(|half| (contact, half, None)));

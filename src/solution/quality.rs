@@ -38,11 +38,13 @@ impl<T: Real> Solution<'_, T> {
     /// adhesive edges the bodies may pull at each other, and only the outside is checked.
     ///
     /// # Errors
-    /// [`ContactError::FeatureMissed`] where the panels have missed a feature in the contact;
-    /// [`ContactError::Unbalanced`] if the samples give a free edge a larger residual than
-    /// [`limits_error`](Self::limits_error) allows for; [`ContactError::Profile`] for heights that
-    /// are not finite; [`ContactError::Tension`] at the least pressure, [`ContactError::Overlap`]
-    /// at the deepest overlap, [`ContactError::Undecided`]; those of sampling the gap.
+    /// [`SolveError::FeatureMissed`](crate::SolveError::FeatureMissed) where the panels have missed
+    /// a feature in the contact; [`SolveError::Unbalanced`](crate::SolveError::Unbalanced) if the
+    /// samples give a free edge a larger residual than [`limits_error`](Self::limits_error) allows
+    /// for; [`InputError::Profile`](crate::InputError::Profile) for heights that are not finite;
+    /// [`SolveError::Tension`](crate::SolveError::Tension) at the least pressure,
+    /// [`SolveError::Overlap`](crate::SolveError::Overlap) at the deepest overlap,
+    /// [`SolveError::Undecided`](crate::SolveError::Undecided); those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
         certify(self.solved())
     }

@@ -3,7 +3,7 @@
 use super::pressure_integral::Integrals;
 use super::{Peak, Solution};
 use crate::gap::Cost;
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, EvaluationError, InputError, Interval, Real};
 
 /// One of the intervals in which the bodies touch, with its load and largest pressure.
 ///
@@ -57,11 +57,11 @@ impl<T: Real> ContactRegion<T> {
     /// Returns the centre of pressure, `∫ x P dx/∫ P dx` over this contact.
     ///
     /// # Errors
-    /// [`ContactError::InvalidLoad`] if the load is zero, as it may be with adhesion.
+    /// [`InputError::InvalidLoad`] if the load is zero, as it may be with adhesion.
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load;
         if load.is_zero() {
-            return Err(ContactError::InvalidLoad { quantity: "load", value: load });
+            return Err(InputError::InvalidLoad { quantity: "load", value: load }.into());
         }
         Ok(self.interval.centre() + self.half_width() * (self.turning / load))
     }
@@ -91,7 +91,7 @@ impl<T: Real> Solution<'_, T> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`pressure`](Self::pressure), and [`ContactError::Integral`].
+    /// Those of [`pressure`](Self::pressure), and [`EvaluationError::Integral`].
     pub fn contacts(&self) -> Result<Vec<ContactRegion<T>>, ContactError<T>> {
         let integrals = Integrals::new(self.solved())?;
         let last = self.intervals().len() - 1;
@@ -102,7 +102,7 @@ impl<T: Real> Solution<'_, T> {
             let [load, turning] = integrals.over_one(i, interval.centre(), both)?;
             let peak = match self.solved().peak_in(i, &mut Cost::default()) {
                 Ok((x, top)) => Some(Peak { x, pressure: top.value }),
-                Err(ContactError::Singular { .. }) => None,
+                Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => None,
                 Err(error) => return Err(error),
             };
             let outermost = Ends { left: i == 0, right: i == last };

@@ -1,7 +1,7 @@
 //! Report of a solve: its attempts and their outcomes.
 
-use crate::ContactError;
 use crate::Real;
+use crate::{ContactError, SolveError};
 
 /// Largest number of attempts kept; of more, the last replaces the one before.
 const MAX_ATTEMPTS: usize = 12;
@@ -94,8 +94,8 @@ pub enum Outcome {
 impl Outcome {
     pub(crate) fn of<T: Real>(error: &ContactError<T>) -> Self {
         match error {
-            ContactError::Tension { .. } => Self::Tension,
-            ContactError::Overlap { .. } => Self::Overlap,
+            ContactError::Solve(SolveError::Tension { .. }) => Self::Tension,
+            ContactError::Solve(SolveError::Overlap { .. }) => Self::Overlap,
             _ => Self::NotFound,
         }
     }

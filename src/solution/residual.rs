@@ -1,7 +1,7 @@
 //! Residual of the integral equation.
 
 use super::pressure_integral::{Density, Integrals};
-use crate::{ContactError, Interval, Real, Solution};
+use crate::{ContactError, EvaluationError, Interval, Real, Solution};
 
 impl<T: Real> Solution<'_, T> {
     /// Returns the residual of the integral equation, the paper's Eq. (3), at a place strictly
@@ -12,17 +12,22 @@ impl<T: Real> Solution<'_, T> {
     /// slope jumps there the integral is infinite.
     ///
     /// # Errors
-    /// [`ContactError::InvalidPosition`] for an x not strictly inside; those of
-    /// [`pressure`](Self::pressure), of sampling the gap, and [`ContactError::Integral`].
+    /// [`EvaluationError::InvalidPosition`] for an x not strictly inside; those of
+    /// [`pressure`](Self::pressure), of sampling the gap, and [`EvaluationError::Integral`].
     pub fn residual(&self, x: T) -> Result<T, ContactError<T>> {
         let (_, Some(interval)) = Interval::find(self.intervals(), x) else {
-            return Err(ContactError::InvalidPosition { x, inside: true, interval: self.hull() });
+            return Err(EvaluationError::InvalidPosition {
+                x,
+                inside: true,
+                interval: self.hull(),
+            }
+            .into());
         };
         let integrals = Integrals::new(self.solved())?;
         let mut at_x = [T::zero()];
         integrals.density.values(&[x], &mut at_x)?;
         if !at_x[0].is_finite() {
-            return Err(ContactError::Singular { x });
+            return Err(EvaluationError::Singular { x }.into());
         }
         let at_x = at_x[0] * interval.chebyshev_weight(x);
         // PV∫ ds/((x - s) w(s)) is zero over the contact with x, so that a constant can be

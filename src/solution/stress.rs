@@ -56,7 +56,7 @@ use super::pressure_integral::Density;
 use crate::gap::Sampler;
 use crate::material::checked_ratio;
 use crate::quadrature::panels::CauchyTransform;
-use crate::{ContactError, Interval, Pressure, Real, Solution};
+use crate::{ContactError, EvaluationError, InputError, Interval, Pressure, Real, Solution};
 
 /// Stress in plane strain: a pressure; tension is positive.
 ///
@@ -105,7 +105,7 @@ impl<T: Real> Stress<T> {
     /// Returns σ_z = ν (σ_x + σ_y), the stress that keeps the strain plane.
     ///
     /// # Errors
-    /// [`ContactError::InvalidPoissonRatio`] for ν outside [0, 1/2], or NaN.
+    /// [`InputError::InvalidPoissonRatio`] for ν outside [0, 1/2], or NaN.
     pub fn sigma_z(&self, poisson: T) -> Result<T, ContactError<T>> {
         Ok(checked_ratio(poisson)? * (self.sigma_x + self.sigma_y))
     }
@@ -117,7 +117,7 @@ impl<T: Real> Stress<T> {
     /// ```
     ///
     /// # Errors
-    /// [`ContactError::InvalidPoissonRatio`] for ν outside [0, 1/2], or NaN.
+    /// [`InputError::InvalidPoissonRatio`] for ν outside [0, 1/2], or NaN.
     pub fn von_mises(&self, poisson: T) -> Result<T, ContactError<T>> {
         // The formula above, written as a sum of squares.
         let share = T::of(0.5) - checked_ratio(poisson)?;
@@ -177,10 +177,10 @@ impl<T: Real> Subsurface<'_, T> {
     /// either sign. Default 0.
     ///
     /// # Errors
-    /// [`ContactError::InvalidFriction`] if μ is not finite.
+    /// [`InputError::InvalidFriction`] if μ is not finite.
     pub fn friction(self, coefficient: T) -> Result<Self, ContactError<T>> {
         if !coefficient.is_finite() {
-            return Err(ContactError::InvalidFriction { coefficient });
+            return Err(InputError::InvalidFriction { coefficient }.into());
         }
         Ok(Self { friction: coefficient, ..self })
     }
@@ -188,8 +188,8 @@ impl<T: Real> Subsurface<'_, T> {
     /// Returns the stress at any x, at any depth from zero on. Depths below ε³ L count as zero.
     ///
     /// # Errors
-    /// [`ContactError::AboveSurface`] for a depth that is negative, and for numbers that are not
-    /// finite; [`ContactError::Singular`] on the surface where the pressure is infinite; on the
+    /// [`EvaluationError::AboveSurface`] for a depth that is negative, and for numbers that are not
+    /// finite; [`EvaluationError::Singular`] on the surface where the pressure is infinite; on the
     /// surface, with friction, those of sampling the gap.
     pub fn at(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
         let [normal, along] = self.parts(x, depth, !self.friction.is_zero())?;
@@ -205,7 +205,7 @@ impl<T: Real> Subsurface<'_, T> {
         with_traction: bool,
     ) -> Result<[Stress<T>; 2], ContactError<T>> {
         if !(x.is_finite() && depth.is_finite() && depth >= T::zero()) {
-            return Err(ContactError::AboveSurface { x, depth });
+            return Err(EvaluationError::AboveSurface { x, depth }.into());
         }
         // All digits of the depth are lost there.
         if depth <= T::epsilon().powi(3) * self.hull().half_width() {
@@ -232,7 +232,7 @@ impl<T: Real> Subsurface<'_, T> {
         let infinite = (x == left && !free.left) || (x == right && !free.right);
         let [pressure] = pressure;
         if infinite || !pressure.is_finite() {
-            return Err(ContactError::Singular { x });
+            return Err(EvaluationError::Singular { x }.into());
         }
         let pull = if !with_traction {
             T::zero()

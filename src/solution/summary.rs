@@ -2,7 +2,7 @@
 
 use super::{Peak, Report, Solution};
 use crate::gap::Cost;
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, EvaluationError, Interval, Real};
 
 /// Numbers of a solution, without its bodies: a row of a table, or with the feature `serde` of a
 /// file. [`Solution::summary`] makes it.
@@ -64,7 +64,7 @@ impl<T: Real> Solution<'_, T> {
         let contacts = self.contacts()?;
         let peak = match self.peak() {
             Ok(peak) => Some(peak),
-            Err(ContactError::Singular { .. }) => None,
+            Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => None,
             Err(error) => return Err(error),
         };
         let centre_of_pressure =

@@ -15,7 +15,7 @@ use super::solved::Solved;
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::search::{Bracket, Brent, SearchError, StoppingCriteria, TryFindError, try_find};
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, EvaluationError, Interval, Real};
 
 /// Largest number of spans of θ beyond those between the breakpoints, before an integral is given
 /// up.
@@ -146,7 +146,9 @@ impl<T: Real> UndeformedGap<T> {
             };
             if !(agrees(0) && agrees(1)) {
                 if left == 0 {
-                    return Err(ContactError::Integral { x: on.centre(), panels: MAX_SPANS });
+                    return Err(
+                        EvaluationError::Integral { x: on.centre(), panels: MAX_SPANS }.into()
+                    );
                 }
                 left -= 1;
                 pending.extend(halves.into_iter().rev());

@@ -454,6 +454,7 @@ impl<T: Real> ActiveSet<T> {
 mod tests {
     use super::*;
     use crate::Side;
+    use crate::SolveError;
     use std::f64::consts::{FRAC_PI_2, PI};
 
     fn scene(load: f64, range: [f64; 2]) -> Scene<'static, f64> {
@@ -738,7 +739,7 @@ mod tests {
         let hole = |x: f64| if x > 0.3 { f64::NAN } else { x * x };
         let refused = find(&scene(0.1, [-1.0, 1.0]), hole);
         assert!(matches!(refused, Err(NotFound::NotFinite { x, .. }) if x > 0.3), "{refused:?}");
-        let outside = ContactError::OutsideBodies { x: 0.0, range: [0.0, 1.0] };
+        let outside = ContactError::Solve(SolveError::OutsideBodies { x: 0.0, range: [0.0, 1.0] });
         let refused = active_set(&scene(0.1, [-1.0, 1.0]), &mut 0, &mut |_| Err(outside.clone()));
         assert_eq!(refused.unwrap_err(), NotFound::Height(outside));
         // The search has spent all its work before.

@@ -21,7 +21,9 @@ use crate::gap::Asked;
 use crate::material::Elasticity;
 use crate::search::SearchError;
 use crate::solution::{Approaching, ContactState, LoadRates, Report, Solved};
-use crate::{ContactError, Edge, Ends, Interval, Real, References};
+use crate::{
+    ContactError, Edge, Ends, EvaluationError, InputError, Interval, Real, References, SolveError,
+};
 
 /// Loads tried before the search is given up.
 const MAX_LOADS: usize = 100;
@@ -49,10 +51,10 @@ pub(super) enum Quantity<T> {
 pub(super) fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>> {
     let edges = contact.checked_edges()?;
     if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = edges {
-        return Err(ContactError::BothLimitsGiven { interval: Interval { left, right } });
+        return Err(InputError::BothLimitsGiven { interval: Interval { left, right } }.into());
     }
     match edges.into_iter().find(|edge| !edge.is_free()) {
-        Some(edge) => Err(ContactError::PeakEdge { edge }),
+        Some(edge) => Err(InputError::PeakEdge { edge }.into()),
         None => Ok(()),
     }
 }
@@ -127,7 +129,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         for _ in 0..MAX_LOADS {
             // So small a number has no digits left.
             if !load.is_finite() || (load * T::epsilon()).is_zero() {
-                return Err(ContactError::Overflow { interval: self.whole() });
+                return Err(SolveError::Overflow { interval: self.whole() }.into());
             }
             let [value, rate] = match self.at(load) {
                 Ok((found, at)) => {
@@ -171,7 +173,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         let best = self.work.workspace.hull().unwrap_or(self.whole());
         let residual = enclosure.high.map_or(self.wanted, |[_, value]| value - self.wanted);
         let source = SearchError::NotConverged { x: load, residual };
-        Err(ContactError::LimitSearch { best, source })
+        Err(SolveError::LimitSearch { best, source }.into())
     }
 
     /// Returns the load to start with.
@@ -222,7 +224,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                     };
                     ([top.value, rate], top.error / top.value.abs())
                 }
-                Err(ContactError::Singular { .. }) => {
+                Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => {
                     let widest =
                         topology::up_to_corner(contact, &conditions, found.free, self.work);
                     if let Some(widest) = widest {
@@ -236,7 +238,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                 let at = Approaching::new(solved, bodies, &references)?.with_rate()?;
                 let rate = at[1];
                 if !(rate > T::zero() && rate.is_finite()) {
-                    return Err(ContactError::ApproachFalls { load, rate });
+                    return Err(SolveError::ApproachFalls { load, rate }.into());
                 }
                 (at, T::zero())
             }
@@ -269,38 +271,38 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
     fn bound(&mut self, error: &ContactError<T>, load: T) -> Result<Bound<T>, ContactError<T>> {
         let (wanted, infinite) = (self.wanted, T::one() / T::zero());
         Ok(match *error {
-            ContactError::DomainTooShort {
+            ContactError::Solve(SolveError::DomainTooShort {
                 end,
                 carried,
                 half_width,
                 peak,
                 kappa_is_default,
                 ..
-            } => {
+            }) => {
                 let given = Given::HalfWidth(half_width);
                 let (at, load) = (carried.min(load), carried);
                 let (value, too_large) = match self.quantity {
                     Quantity::HalfWidth => (
                         half_width,
-                        ContactError::HalfWidthTooLarge {
+                        ContactError::Solve(SolveError::HalfWidthTooLarge {
                             wanted,
                             half_width,
                             end,
                             load,
                             peak,
                             kappa_is_default,
-                        },
+                        }),
                     ),
                     Quantity::Peak => (
                         peak,
-                        ContactError::PeakTooHigh {
+                        ContactError::Solve(SolveError::PeakTooHigh {
                             wanted,
                             half_width,
                             found: peak,
                             end,
                             load,
                             kappa_is_default,
-                        },
+                        }),
                     ),
                     // The further approach of the bodies is unknown.
                     Quantity::Approach { .. } => (infinite, error.clone()),
@@ -315,7 +317,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                 Bound::At(at, value)
             }
             // So small a load is not held by a corner, or does not close a hollow.
-            ContactError::NoEquilibrium { .. } | ContactError::LiftsOff { .. } => {
+            ContactError::Solve(SolveError::NoEquilibrium { .. } | SolveError::LiftsOff { .. }) => {
                 Bound::At(load, T::zero())
             }
             _ => return Err(error.clone()),
@@ -329,22 +331,25 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
             (Some(_), Some([load, approach]), Some(_), Quantity::Approach { .. })
                 if approach > T::zero() =>
             {
-                ContactError::ApproachTooLarge { wanted, approach, load }
+                ContactError::Solve(SolveError::ApproachTooLarge { wanted, approach, load })
             }
             (Some(error), ..) => error,
             // The peak is too large under any load.
             (None, None, high, Quantity::Peak) => {
                 let half_width = self.work.workspace.hull().unwrap_or(self.whole()).half_width();
                 let found = high.map_or(T::of(f64::NAN), |[_, found]| found);
-                ContactError::NoPeak { wanted, half_width, found }
+                ContactError::Solve(SolveError::NoPeak { wanted, half_width, found })
             }
             (None, low, Some([load, above]), _) => {
                 let below = low.map_or(T::zero(), |[_, below]| below);
-                ContactError::InJump { wanted, load, below, above }
+                ContactError::Solve(SolveError::InJump { wanted, load, below, above })
             }
             (None, _, None, _) => {
                 let whole = self.whole();
-                ContactError::NoEquilibrium { half_width: whole.half_width(), near: whole.left }
+                ContactError::Solve(SolveError::NoEquilibrium {
+                    half_width: whole.half_width(),
+                    near: whole.left,
+                })
             }
         }
     }

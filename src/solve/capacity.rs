@@ -11,7 +11,7 @@ use crate::gap::Cost;
 use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature};
 use crate::search::{Bracket, Brent, try_find};
 use crate::solution::largest_pressure;
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
 
 /// Relative tolerance of the samples until the largest contact is bracketed: the whole of the
 /// bodies may be hard to sample, and only the direction of the shift counts.
@@ -48,27 +48,27 @@ impl<T: Real> Capacity<T> {
     /// Returns the error for a load beyond the capacity.
     pub fn too_short(&self, load: T) -> ContactError<T> {
         let Self { on, end, load: carried, peak } = *self;
-        ContactError::DomainTooShort {
+        ContactError::Solve(SolveError::DomainTooShort {
             end,
             carried,
             load,
             half_width: on.half_width(),
             peak,
             kappa_is_default: false,
-        }
+        })
     }
 
     /// Returns the error for a width that has no room on the bodies.
     pub fn too_wide(&self, wanted: T) -> ContactError<T> {
         let Self { on, end, load, peak } = *self;
-        ContactError::HalfWidthTooLarge {
+        ContactError::Solve(SolveError::HalfWidthTooLarge {
             wanted,
             half_width: on.half_width(),
             end,
             load,
             peak,
             kappa_is_default: false,
-        }
+        })
     }
 }
 

@@ -4,7 +4,7 @@ use super::EdgePressure;
 use super::edges::Conditions;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Integrator, LoadCase, Moments, complete};
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, InputError, Interval, Real, Side};
 
 /// Conditions at the edges, as two numbers to be brought to zero.
 #[derive(Clone, Copy)]
@@ -112,7 +112,7 @@ impl<T: Real> Equations<T> {
         if let Self::Pressure { wanted, .. } = self {
             for (name, value) in [("ε_a", wanted.distance_a), ("ε_b", wanted.distance_b)] {
                 if value >= range[1] - range[0] {
-                    return Err(ContactError::InvalidEdgePressure { name, value });
+                    return Err(InputError::InvalidEdgePressure { name, value }.into());
                 }
             }
         }
@@ -208,7 +208,7 @@ fn of_pressures<T: Real>(
         [("ε_a", wanted.distance_a, x_a, on.right), ("ε_b", wanted.distance_b, x_b, on.left)]
     {
         if x == end {
-            return Err(ContactError::InvalidEdgePressure { name, value });
+            return Err(InputError::InvalidEdgePressure { name, value }.into());
         }
     }
     integrator.prepare(gap, on)?;

@@ -3,7 +3,7 @@
 
 use crate::gap::{Gap, Sampler};
 use crate::search::{Bracket, Brent, SearchError, TryFindError, try_find};
-use crate::{ContactError, Interval, Real, Side};
+use crate::{ContactError, Interval, Real, Side, SolveError};
 
 /// Two abscissae and the slope of the gap there.
 struct Signs<T> {
@@ -53,7 +53,12 @@ fn widen<T: Real>(
             x[1] = (x[1] + step).min(half * x[1] + half * whole.right);
         }
         if x == before || !(whole.contains(x[0]) && whole.contains(x[1])) {
-            return scan(sampler, gap, start, ContactError::NoFirstContact { x: before, slope });
+            return scan(
+                sampler,
+                gap,
+                start,
+                ContactError::Solve(SolveError::NoFirstContact { x: before, slope }),
+            );
         }
         for i in 0..2 {
             if x[i] != before[i] {
@@ -127,6 +132,8 @@ fn zero<T: Real>(
     match try_find(&Brent::default(), |u| sampler.slope(gap, at(u)), &bracket) {
         // Any point of a bracket this tight lies in the contact.
         Ok(root) | Err(TryFindError::Search(SearchError::Budget { best: root })) => Ok(at(root.x)),
-        Err(error) => Err(error.or_else(|_| ContactError::NoFirstContact { x, slope })),
+        Err(error) => {
+            Err(error.or_else(|_| ContactError::Solve(SolveError::NoFirstContact { x, slope })))
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::edges::Conditions;
 use crate::quadrature::Moments;
 use crate::solution::ContactState;
-use crate::{ContactError, Edge, Ends, Interval, Real, Side};
+use crate::{ContactError, Edge, Ends, Interval, Real, Side, SolveError};
 
 impl<T: Real> ContactState<T> {
     pub(crate) fn new(
@@ -56,7 +56,7 @@ impl<T: Real> ContactState<T> {
         let rounding = T::epsilon().sqrt() * mean;
         Side::BOTH.into_iter().find_map(|side| match (edges[side], self.strengths[side]) {
             (Edge::Fixed(x), strength) if strength < -rounding || !reaches[side] => {
-                Some(ContactError::LiftsOff { x, strength, interval, load })
+                Some(ContactError::Solve(SolveError::LiftsOff { x, strength, interval, load }))
             }
             _ => None,
         })

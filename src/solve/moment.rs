@@ -9,7 +9,7 @@ use super::topology::{self, Borne};
 use super::{Contact, Work};
 use crate::quadrature::panels::{self, Several};
 use crate::solution::ContactState;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, InputError, Interval, Real, SolveError};
 
 /// Halvings of the way from the middle of the bodies to a place where the load cannot act.
 const MAX_HALVES: usize = 14;
@@ -29,7 +29,7 @@ pub(super) struct LineOfLoad<T> {
 impl<T: Real> LineOfLoad<T> {
     pub fn of_moment(load: T, moment: T, about: T) -> Result<Self, ContactError<T>> {
         if let Some(&value) = [moment, about].iter().find(|value| !value.is_finite()) {
-            return Err(ContactError::InvalidMoment { value });
+            return Err(InputError::InvalidMoment { value }.into());
         }
         let arm = moment / load;
         let rounding = T::epsilon() * (about.abs() + arm.abs());
@@ -39,7 +39,7 @@ impl<T: Real> LineOfLoad<T> {
     pub fn through(load: T, at: T) -> Result<Self, ContactError<T>> {
         super::check_positive("load", load)?;
         if !at.is_finite() {
-            return Err(ContactError::InvalidMoment { value: at });
+            return Err(InputError::InvalidMoment { value: at }.into());
         }
         Ok(Self { load, at, rounding: T::epsilon() * at.abs() })
     }
@@ -52,7 +52,7 @@ pub(super) fn find<T: Real>(
     work: &mut Work<'_, T>,
 ) -> Result<ContactState<T>, ContactError<T>> {
     let edges = contact.checked_edges()?;
-    let refuse = |why| Err(ContactError::TiltNotSupported { why });
+    let refuse = |why| Err(InputError::TiltNotSupported { why }.into());
     if edges.are_adhesive() {
         return refuse("an edge is Adhesive");
     }
@@ -69,7 +69,7 @@ pub(super) fn find<T: Real>(
     // Otherwise all pressure would lie on one side of the line.
     if !(given || at > ends.left && at < ends.right) {
         let range = [ends.left, ends.right];
-        return Err(ContactError::OutsideBodies { x: at, range });
+        return Err(SolveError::OutsideBodies { x: at, range }.into());
     }
     let mut found = match topology::find(contact, conditions, work) {
         Err(error) if !given && may_be_beyond(&error) => {
@@ -97,9 +97,10 @@ pub(super) fn find<T: Real>(
 /// Tells whether a search may have failed with this error because the contact would leave the
 /// bodies.
 fn may_be_beyond<T: Real>(error: &ContactError<T>) -> bool {
-    use ContactError::{LiftsOff, Overlap, Tension};
-    let fails = matches!(error, Tension { .. } | Overlap { .. });
-    fails || error.may_be_several() && !matches!(error, LiftsOff { .. })
+    use SolveError::{LiftsOff, Overlap, Tension};
+    let ContactError::Solve(failed) = error else { return false };
+    let fails = matches!(failed, Tension { .. } | Overlap { .. });
+    fails || error.may_be_several() && !matches!(failed, LiftsOff { .. })
 }
 
 /// Returns the error with the nearest place where the load can act, between `at` and the middle of
@@ -127,5 +128,11 @@ fn nearest<T: Real>(
     let ContactState { tilt, interval: Interval { left, right }, .. } = found;
     let room = (left - ends.left).min(ends.right - right);
     let is_at_end = room <= T::of(AT_END) * (ends.right - ends.left);
-    is_at_end.then_some(ContactError::TiltNotFound { load, at, reached, tilt, ends })
+    is_at_end.then_some(ContactError::Solve(SolveError::TiltNotFound {
+        load,
+        at,
+        reached,
+        tilt,
+        ends,
+    }))
 }

@@ -30,7 +30,7 @@ use super::first_contact::first_contact;
 use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::Integrator;
 use crate::search::{Bracket, LimitSearch, try_find};
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, SolveError};
 use centre::Centred;
 use derivatives::differentiate;
 
@@ -132,7 +132,7 @@ fn place<T: Real>(
             }
             Centred::Beyond(end) => {
                 let x = [search.origin - half_width, search.origin + half_width][end];
-                return Err(ContactError::OutsideBodies { x, range });
+                return Err(SolveError::OutsideBodies { x, range }.into());
             }
             // If one edge is pulled more than the other, the contact may sit further on.
             Centred::Adrift(on) if equations.is_lopsided() => {
@@ -203,7 +203,7 @@ impl<'s, T: Real> NestedSearch<'s, T> {
         }
         let residual = self.equations.residual(self.gap, on, self.integrator, self.cost)?;
         if !residual.is_finite() {
-            return Err(ContactError::Overflow { interval: on });
+            return Err(SolveError::Overflow { interval: on }.into());
         }
         Ok(TrialContact { on, residual })
     }
@@ -231,9 +231,9 @@ impl<'s, T: Real> NestedSearch<'s, T> {
         };
         match try_find(strategy, function, bracket) {
             Ok(_) => Ok(*best),
-            Err(error) => {
-                Err(error.or_else(|source| ContactError::LimitSearch { best: best.on, source }))
-            }
+            Err(error) => Err(error.or_else(|source| {
+                ContactError::Solve(SolveError::LimitSearch { best: best.on, source })
+            })),
         }
     }
 
@@ -248,7 +248,7 @@ impl<'s, T: Real> NestedSearch<'s, T> {
     }
 
     fn no_balance(&self, half_width: T) -> ContactError<T> {
-        ContactError::NoEquilibrium { half_width, near: self.origin }
+        ContactError::Solve(SolveError::NoEquilibrium { half_width, near: self.origin })
     }
 }
 

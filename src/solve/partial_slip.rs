@@ -3,21 +3,21 @@
 use crate::contact::{Contact, Edge};
 use crate::material::Elasticity;
 use crate::solution::{Shear, Solution};
-use crate::{ContactError, Real};
+use crate::{ContactError, InputError, Real, SolveError};
 
 impl<'b, T: Real> Contact<'b, T> {
     /// Checks that partial slip can be solved for this shear.
     pub(crate) fn check_shear(&self, shear: &Shear<T>) -> Result<(), ContactError<T>> {
         let Shear { friction, force, tension } = *shear;
         if !(friction.is_finite() && friction > T::zero()) {
-            return Err(ContactError::InvalidSlipFriction { friction });
+            return Err(InputError::InvalidSlipFriction { friction }.into());
         }
         for (quantity, value) in [("force", force), ("tension", tension)] {
             if !value.is_finite() {
-                return Err(ContactError::InvalidShear { quantity, value });
+                return Err(InputError::InvalidShear { quantity, value }.into());
             }
         }
-        let refuse = |why| Err(ContactError::SlipNotSupported { why });
+        let refuse = |why| Err(InputError::SlipNotSupported { why }.into());
         if self.edge_pressure.is_some() {
             return refuse("the edges are by Eq. (6)");
         }
@@ -27,7 +27,7 @@ impl<'b, T: Real> Contact<'b, T> {
         if let Some(bodies) = self.elasticity()? {
             let beta = Elasticity::dundurs(bodies);
             if beta.abs() > T::of(16.0) * T::epsilon() {
-                return Err(ContactError::UnlikeBodies { beta });
+                return Err(InputError::UnlikeBodies { beta }.into());
             }
         }
         Ok(())
@@ -42,12 +42,12 @@ impl<'b, T: Real> Contact<'b, T> {
         let Shear { friction, force, tension } = *shear;
         let (load, limit) = (normal.load(), friction * normal.load());
         if force.abs() >= limit {
-            return Err(ContactError::SlipsEverywhere { force, limit });
+            return Err(SolveError::SlipsEverywhere { force, limit }.into());
         }
         // The traction is a difference, of which no digits would be left.
         let least = T::epsilon().powf(T::of(0.75)) * limit;
         if !force.is_zero() && force.abs() < least {
-            return Err(ContactError::SticksEverywhere { force, limit });
+            return Err(SolveError::SticksEverywhere { force, limit }.into());
         }
         // μ E*, with the sign of the force.
         let stiffness = friction * self.kappa / T::frac_pi_2();

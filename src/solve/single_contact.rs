@@ -24,7 +24,7 @@ use super::one_by_one;
 use crate::gap::{Cost, Survey};
 use crate::quadrature::{Integrator, Moments, panels};
 use crate::solution::ContactState;
-use crate::{ContactError, Edge, Interval, ProfileError, Real, Side};
+use crate::{ContactError, Edge, InputError, Interval, ProfileError, Real, Side, SolveError};
 
 /// Largest uncertainty of a contact, as a share of the half-width, to count as found.
 pub(super) const MAX_DOUBT: f64 = 0.03;
@@ -122,7 +122,9 @@ impl<T: Real> Single<'_, '_, T> {
             let Edge::FreeUntil(x) = corners[side] else { continue };
             // The contact is neither held by the corner nor within it.
             if beyond(on, side, x) > T::of(8.0) * T::epsilon() * (x.abs() + on.half_width()) {
-                return Err(ContactError::NoEquilibrium { half_width: on.half_width(), near: x });
+                return Err(
+                    SolveError::NoEquilibrium { half_width: on.half_width(), near: x }.into()
+                );
             }
         }
         // The bodies were turned before the search.
@@ -164,7 +166,9 @@ impl<T: Real> Single<'_, '_, T> {
             _ => self.start().half_width(),
         };
         if is_one_of_several {
-            return Err(ContactError::NoEquilibrium { half_width, near: self.start().centre() });
+            return Err(
+                SolveError::NoEquilibrium { half_width, near: self.start().centre() }.into()
+            );
         }
         // From another start, or on a far wider span, the way to the contact may be blocked.
         for from in [Elsewhere::Low, Elsewhere::FirstContact, Elsewhere::Leaning] {
@@ -174,7 +178,7 @@ impl<T: Real> Single<'_, '_, T> {
                 return self.contact_of(converged);
             }
         }
-        Err(ContactError::NoEquilibrium { half_width, near: self.start().centre() })
+        Err(SolveError::NoEquilibrium { half_width, near: self.start().centre() }.into())
     }
 
     /// Finds the contact by Newton's method; `None` if it goes astray.
@@ -187,8 +191,9 @@ impl<T: Real> Single<'_, '_, T> {
             // an error means nothing, unless it is that the bodies bear less.
             let known = |result| match result {
                 Err(
-                    error @ (ContactError::DomainTooShort { .. }
-                    | ContactError::HalfWidthTooLarge { .. }),
+                    error @ ContactError::Solve(
+                        SolveError::DomainTooShort { .. } | SolveError::HalfWidthTooLarge { .. },
+                    ),
                 ) => Err(error),
                 result => Ok(result.unwrap_or(None)),
             };
@@ -273,7 +278,7 @@ impl<T: Real> Single<'_, '_, T> {
         super::check(on)?;
         let sought = conditions.edges.are_sought();
         if !sought && matches!(conditions.given, Given::HalfWidth(_)) {
-            return Err(ContactError::BothLimitsGiven { interval: on });
+            return Err(InputError::BothLimitsGiven { interval: on }.into());
         }
         let rounding = T::of(8.0) * T::epsilon() * (on.left.abs() + on.right.abs());
         super::check_within(on, range.into(), if sought { rounding } else { T::zero() })?;
@@ -318,7 +323,7 @@ impl<T: Real> Single<'_, '_, T> {
         let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
         let unknown = stiffness * rate.unwrap_or(T::zero()) * rounding;
         if load.abs() <= unknown && !self.conditions.edges.are_adhesive() {
-            return Err(ContactError::NoEquilibrium { half_width, near: on.centre() });
+            return Err(SolveError::NoEquilibrium { half_width, near: on.centre() }.into());
         }
         Ok(load)
     }
@@ -378,12 +383,14 @@ impl<T: Real> Single<'_, '_, T> {
 
     /// Replaces an error of the search by the exceeded capacity that caused it, if any.
     fn because(&mut self, error: ContactError<T>) -> ContactError<T> {
+        use SolveError::{NoEquilibrium, OutsideBodies, Overflow};
         match error {
-            ContactError::NoEquilibrium { .. }
-            | ContactError::OutsideBodies { .. }
-            | ContactError::Overflow { .. }
-            // Occurs at an end of the bodies.
-            | ContactError::Profile { source: ProfileError::NotFinite { .. }, .. } => self.check().err().unwrap_or(error),
+            ContactError::Solve(NoEquilibrium { .. } | OutsideBodies { .. } | Overflow { .. })
+            | ContactError::Input(InputError::Profile {
+                // Occurs at an end of the bodies.
+                source: ProfileError::NotFinite { .. },
+                ..
+            }) => self.check().err().unwrap_or(error),
             _ => error,
         }
     }

@@ -22,7 +22,7 @@ use super::{Contact, Work};
 use crate::gap::{Asked, Survey};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
-use crate::{ContactError, Interval, Real, Side};
+use crate::{ContactError, Interval, Real, Side, SolveError};
 pub(super) use bears::{Borne, bears, up_to_corner};
 pub(crate) use workspace::Workspace;
 
@@ -37,7 +37,7 @@ pub(super) fn find<T: Real>(
     let found = Search::new(contact, conditions, work).find();
     found.map_err(|error| match error {
         // A step of the heights that no slope shows is not a crest that could be pressed flat.
-        ContactError::Overlap { x, interval, .. } => {
+        ContactError::Solve(SolveError::Overlap { x, interval, .. }) => {
             step_of_heights(&contact.gap, interval, x).unwrap_or(error)
         }
         _ => error,
@@ -86,7 +86,9 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         // fails.
         if self.has_valleys()? {
             match self.several(None) {
-                Err(error) if !matches!(error, ContactError::DomainTooShort { .. }) => {}
+                Err(error)
+                    if !matches!(error, ContactError::Solve(SolveError::DomainTooShort { .. })) => {
+                }
                 found => return found,
             }
         }
@@ -107,7 +109,10 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         let mut start = self.start_of_one(looks);
         let mut found = self.one(start, looks);
         // The first search had no survey of the bodies.
-        if is_said && !turns && matches!(found, Err(ContactError::NoEquilibrium { .. })) {
+        if is_said
+            && !turns
+            && matches!(found, Err(ContactError::Solve(SolveError::NoEquilibrium { .. })))
+        {
             self.report(start, Outcome::NotFound);
             start = self.start_of_one(true);
             found = self.one(start, true).or(found);
@@ -119,7 +124,9 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
                     return Ok(Ok(found));
                 }
                 // If the bodies turn, more contacts may press at the corner.
-                Some(error @ ContactError::LiftsOff { .. }) if self.is_convex() || !turns => {
+                Some(error @ ContactError::Solve(SolveError::LiftsOff { .. }))
+                    if self.is_convex() || !turns =>
+                {
                     return Err(error);
                 }
                 Some(error) => error,
@@ -137,13 +144,13 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         if !self.contact.edges.are_sought() || !error.may_be_several() {
             return Ok(true);
         }
-        let is_shut = matches!(error, ContactError::NoFirstContact { .. });
+        let is_shut = matches!(error, ContactError::Solve(SolveError::NoFirstContact { .. }));
         if is_shut && self.end_touched_first().is_some() {
             return Ok(true);
         }
         // If the bodies turn, one contact may be hard to find, too; likewise among waves not yet
         // seen.
-        let is_lost = matches!(error, ContactError::NoEquilibrium { .. });
+        let is_lost = matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }));
         Ok(!self.turns() && (self.is_convex() || !is_lost && self.look()?.bulges()))
     }
 

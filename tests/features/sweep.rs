@@ -2,7 +2,9 @@
 //! own scene only.
 #![allow(missing_docs)]
 
-use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Panels, Solver, sweep};
+use linecontact::{
+    Contact, ContactError, Control, Curve, CurvePoint, Flat, InputError, Panels, Solver, sweep,
+};
 use std::sync::Mutex;
 use thiserror::Error;
 
@@ -79,7 +81,13 @@ fn a_scene_that_fails_fails_alone() {
             assert_eq!(result, Err(Fault::Radius));
         } else if load < 0.0 {
             let (quantity, value) = ("load", load);
-            assert_eq!(result, Err(Fault::Contact(ContactError::InvalidLoad { quantity, value })));
+            assert_eq!(
+                result,
+                Err(Fault::Contact(ContactError::Input(InputError::InvalidLoad {
+                    quantity,
+                    value
+                })))
+            );
         } else {
             // A scene solved after others gives the result of a scene solved alone.
             let arc = Curve::new([-1.5, 1.5], |k: f64| {
@@ -102,5 +110,8 @@ fn settings_that_cannot_be_used_are_an_error_of_each() {
         |solver: &mut Solver<f64>, load| solver.solve(&contact, Control::Load(load)).map(|_| ());
     let results: Vec<Result<(), ContactError<f64>>> =
         sweep(&[1.0, 2.0, 3.0], |solver, &load| solve(solver, load), |_| {});
-    assert_eq!(results, vec![Err(ContactError::InvalidTolerance { tolerance: 2.0 }); 3]);
+    assert_eq!(
+        results,
+        vec![Err(ContactError::Input(InputError::InvalidTolerance { tolerance: 2.0 })); 3]
+    );
 }

@@ -7,8 +7,8 @@ use crate::integrals::{integral, strength};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::reference::{ClosedForm, Hertz};
 use linecontact::{
-    Contact, ContactError, Control, Edge, Flat, Material, Midpoint, ParametricProfile, Piecewise,
-    PlaneState, Reference, References, Solution, Solver,
+    Contact, ContactError, Control, Edge, Flat, InputError, Material, Midpoint, ParametricProfile,
+    Piecewise, PlaneState, Reference, References, Solution, SolveError, Solver,
 };
 use std::f64::consts::{E, PI};
 
@@ -407,40 +407,64 @@ fn what_cannot_be_answered_is_refused() {
     let bare = scene.clone().contact_modulus(1.0);
     let references = deep(0.0, 1.0);
     let control = |approach| Control::Approach { approach, references };
-    assert_eq!(bare.solve(control(0.1)).unwrap_err(), ContactError::NoMaterials);
+    assert_eq!(bare.solve(control(0.1)).unwrap_err(), ContactError::Input(InputError::NoMaterials));
     let solution = bare.solve(Control::Load(0.01)).unwrap();
-    assert_eq!(solution.approach(&references).unwrap_err(), ContactError::NoMaterials);
-    assert_eq!(solution.stiffness(&references).unwrap_err(), ContactError::NoMaterials);
+    assert_eq!(
+        solution.approach(&references).unwrap_err(),
+        ContactError::Input(InputError::NoMaterials)
+    );
+    assert_eq!(
+        solution.stiffness(&references).unwrap_err(),
+        ContactError::Input(InputError::NoMaterials)
+    );
 
     let with = |lower, upper| scene.clone().materials(lower, upper, PlaneState::Strain);
     let solve = |contact: Contact<f64>| contact.solve(Control::Load(0.01)).unwrap_err();
-    assert_eq!(solve(with(Material::Rigid, Material::Rigid)), ContactError::BothRigid);
+    assert_eq!(
+        solve(with(Material::Rigid, Material::Rigid)),
+        ContactError::Input(InputError::BothRigid)
+    );
     for modulus in [0.0, -1.0, f64::INFINITY, f64::NAN, 1e-310] {
         let error = solve(with(STEEL, Material::elastic(modulus, 0.3)));
-        assert!(matches!(error, ContactError::InvalidYoungsModulus { .. }), "{error}");
+        assert!(
+            matches!(error, ContactError::Input(InputError::InvalidYoungsModulus { .. })),
+            "{error}"
+        );
     }
     for ratio in [-0.1, 0.51, f64::NAN, f64::INFINITY] {
         let error = solve(with(Material::elastic(1.0, ratio), STEEL));
-        assert!(matches!(error, ContactError::InvalidPoissonRatio { .. }), "{error}");
+        assert!(
+            matches!(error, ContactError::Input(InputError::InvalidPoissonRatio { .. })),
+            "{error}"
+        );
     }
     let contact = with(STEEL, STEEL);
     for approach in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = contact.solve(control(approach)).unwrap_err();
-        assert!(matches!(error, ContactError::InvalidLoad { quantity: "approach", .. }), "{error}");
+        assert!(
+            matches!(
+                error,
+                ContactError::Input(InputError::InvalidLoad { quantity: "approach", .. })
+            ),
+            "{error}"
+        );
     }
     let solution = contact.solve(Control::Load(0.01)).unwrap();
     for depth in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = solution.approach(&deep(0.0, depth)).unwrap_err();
-        assert!(matches!(error, ContactError::InvalidReference { .. }), "{error}");
+        assert!(
+            matches!(error, ContactError::Input(InputError::InvalidReference { .. })),
+            "{error}"
+        );
     }
     // The formula of a disc holds for contacts much smaller than the disc.
     let disc = |radius| References { lower: Reference::Disc(radius), ..deep(0.0, 1.0) };
     let error = solution.approach(&disc(0.99 * solution.a())).unwrap_err();
-    assert!(matches!(error, ContactError::InvalidReference { .. }), "{error}");
+    assert!(matches!(error, ContactError::Input(InputError::InvalidReference { .. })), "{error}");
     assert!(solution.stiffness(&disc(1.01 * solution.a())).unwrap() > 0.0);
     for x in [-1.5, f64::NAN] {
         let error = solution.approach(&deep(x, 1.0)).unwrap_err();
-        assert!(matches!(error, ContactError::OutsideBodies { .. }), "{error}");
+        assert!(matches!(error, ContactError::Solve(SolveError::OutsideBodies { .. })), "{error}");
     }
     // A rigid body has no reference.
     let rigid = with(Material::Rigid, STEEL).solve(Control::Load(0.01)).unwrap();
@@ -458,7 +482,7 @@ fn an_approach_that_the_bodies_do_not_bear_is_refused_with_the_largest() {
     for wanted in [1.001 * largest, 2.0 * largest, 1e3 * largest, 1e300] {
         let control = Control::Approach { approach: wanted, references };
         match contact.solve(control).unwrap_err() {
-            ContactError::ApproachTooLarge { approach, load, .. } => {
+            ContactError::Solve(SolveError::ApproachTooLarge { approach, load, .. }) => {
                 assert!((approach / largest - 1.0).abs() < 1e-6);
                 assert!((load / most.load() - 1.0).abs() < 1e-6);
             }

@@ -20,8 +20,9 @@ use linecontact::search::{Bracket, Brent, Root, SearchError, StoppingCriteria};
 use linecontact::stress::Stress;
 use linecontact::{
     Body, Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, EdgePressure, Estimate,
-    Exponents, Flat, Gap, Interval, Midpoint, Panels, ParametricProfile, Piece, Piecewise,
-    PiecewiseError, ProfileError, Solution, check_derivatives,
+    EvaluationError, Exponents, Flat, Gap, InputError, Interval, Midpoint, Panels,
+    ParametricProfile, Piece, Piecewise, PiecewiseError, ProfileError, Solution, SolveError,
+    check_derivatives,
 };
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};

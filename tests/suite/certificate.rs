@@ -8,7 +8,8 @@ use common::{Profile, graph, join, parabola};
 use forms::{Form, KAPPA, forms};
 use linecontact::reference::body;
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Edge, Extremum, Flat, Midpoint, Solver,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Extremum, Flat, InputError, Midpoint,
+    SolveError, Solver,
 };
 use std::f64::consts::PI;
 
@@ -132,7 +133,9 @@ fn tension_in_a_wave_on_both_sides_of_the_margin() {
             let contact = contact.edges(Edge::FreeUntil(-l), Edge::FreeUntil(l));
             let load = Control::Load(Wave::new(eps, w, l).load() * (1.0 + 1e-13));
             let error = contact.clone().certified(true).solve(load).unwrap_err();
-            let ContactError::Tension { x, pressure, .. } = error else { panic!("{error}") };
+            let ContactError::Solve(SolveError::Tension { x, pressure, .. }) = error else {
+                panic!("{error}")
+            };
             let [place, value] = lowest(eps);
             println!("w = {w}, ε (1 + {off:e}): {x} {pressure:e} for {place} {value:e}");
             assert!(
@@ -177,7 +180,7 @@ fn overlap_beside_a_wave_on_both_sides_of_the_margin() {
                     );
                     assert!((near.x.abs() - place).abs() < 1e-5, "{near:?} for {place}");
                 }
-                Err(ContactError::Overlap { x, gap, .. }) => {
+                Err(ContactError::Solve(SolveError::Overlap { x, gap, .. })) => {
                     assert!(sign > 0.0, "refused with {value:e} at {place}");
                     println!("ε (1 + {off:e}): {x} {gap:e} for {place} {value:e}");
                     assert!((gap - value).abs() < 1e-3 * value.abs() + 1e-12, "{gap:e} {value:e}");
@@ -230,7 +233,9 @@ fn a_narrow_asperity_far_away() {
             println!("at {at}, {off:e}: {found:?} for {place} {value:e}");
             let near = match found {
                 Ok(certificate) if off < 0.0 => certificate.gap.unwrap(),
-                Err(ContactError::Overlap { x, gap: value, .. }) if off > 0.0 => {
+                Err(ContactError::Solve(SolveError::Overlap { x, gap: value, .. }))
+                    if off > 0.0 =>
+                {
                     Extremum { x, value }
                 }
                 other => panic!("{off}: {other:?}, for {place} {value:e}"),
@@ -267,7 +272,9 @@ fn an_asperity_on_both_sides_of_the_margin() {
         println!("A (1 + {off:e}): {found:?} for {place} {value:e}");
         let near = match found {
             Ok(certificate) if off < 0.0 => certificate.gap.unwrap(),
-            Err(ContactError::Overlap { x, gap: value, .. }) if off > 0.0 => Extremum { x, value },
+            Err(ContactError::Solve(SolveError::Overlap { x, gap: value, .. })) if off > 0.0 => {
+                Extremum { x, value }
+            }
             other => panic!("{off}: {other:?}, for {place} {value:e}"),
         };
         assert!((near.value - value).abs() < 1e-3 * value.abs() + 1e-9, "{near:?} {value:e}");
@@ -296,7 +303,9 @@ fn tall_narrow_asperities() {
         });
         let contact = Contact::new(&Flat, &*body).unwrap();
         let found = contact.solve(Control::Load(0.02)).unwrap().certify();
-        let Err(ContactError::Overlap { x, .. }) = found else { panic!("{at}: {found:?}") };
+        let Err(ContactError::Solve(SolveError::Overlap { x, .. })) = found else {
+            panic!("{at}: {found:?}")
+        };
         assert!((x - at).abs() < width, "{at}: {found:?}");
     }
     // Seconds for each are too many.
@@ -329,7 +338,9 @@ fn an_asperity_that_touches() {
                 Extremum { x: on.centre(), value: 0.0 }
             }
             Ok(certificate) => certificate.gap.unwrap(),
-            Err(ContactError::Overlap { x, gap: value, .. }) => Extremum { x, value },
+            Err(ContactError::Solve(SolveError::Overlap { x, gap: value, .. })) => {
+                Extremum { x, value }
+            }
             Err(error) => panic!("{error}"),
         };
         assert!((near.x - 1.579_545_6).abs() < 1e-5 && near.value.abs() < 1e-10, "{off}: {near:?}");
@@ -347,7 +358,9 @@ fn a_budget_that_is_spent() {
     let solution = contact.solve(Control::Load(0.02)).unwrap();
     let error = solution.certify().map(|_| ()).unwrap_err();
     println!("{error}");
-    let ContactError::Undecided { x, evaluations, .. } = error else { panic!("{error}") };
+    let ContactError::Solve(SolveError::Undecided { x, evaluations, .. }) = error else {
+        panic!("{error}")
+    };
     assert!(x > 0.3 && evaluations < 1_300_000);
 }
 
@@ -368,7 +381,9 @@ fn kinks_and_edges_that_lift() {
         assert_eq!(solve(&kink(-slope)), Ok(()));
         let down = kink(slope);
         let error = solve(&down).unwrap_err();
-        let ContactError::Tension { x, pressure, .. } = error else { panic!("{error}") };
+        let ContactError::Solve(SolveError::Tension { x, pressure, .. }) = error else {
+            panic!("{error}")
+        };
         assert_eq!([x, pressure], [0.0, f64::NEG_INFINITY]);
     }
     // A tilted punch, F - m x: it lifts at the right edge once m l > F; beyond its corners there is
@@ -380,7 +395,7 @@ fn kinks_and_edges_that_lift() {
         let contact = contact.single_interval(true);
         match (contact.solve(Control::Load(2.0)), lifts) {
             (Ok(_), None) => {}
-            (Err(ContactError::Tension { x, pressure, .. }), Some(at)) => {
+            (Err(ContactError::Solve(SolveError::Tension { x, pressure, .. })), Some(at)) => {
                 assert_eq!([x, pressure], [at, f64::NEG_INFINITY]);
             }
             (other, _) => panic!("{m}: {other:?}"),
@@ -397,12 +412,18 @@ fn corners_end_a_body() {
     let error = contact.solve(load).map(|_| ()).unwrap_err();
     // The gap is lowest at that end.
     assert!(
-        matches!(error, ContactError::DomainTooShort { end: 2.0, carried: 0.0, .. }),
+        matches!(
+            error,
+            ContactError::Solve(SolveError::DomainTooShort { end: 2.0, carried: 0.0, .. })
+        ),
         "{error}"
     );
     let single = contact.clone().single_interval(true).certified(true);
     let error = single.solve(load).map(|_| ()).unwrap_err();
-    assert!(matches!(error, ContactError::Overlap { x, .. } if x == 2.0), "{error}");
+    assert!(
+        matches!(error, ContactError::Solve(SolveError::Overlap { x, .. }) if x == 2.0),
+        "{error}"
+    );
     for corner in [0.1, 0.5] {
         let ends = contact.clone().edges(Edge::Free, Edge::FreeUntil(corner)).certified(true);
         ends.solve(load).unwrap_or_else(|error| panic!("{corner}: {error}"));
@@ -423,14 +444,14 @@ fn solvers_and_other_quadratures() {
     for _ in 0..2 {
         assert!(solver.solve(&first, load).is_ok());
         let error = solver.solve(&second, load).map(|_| ()).unwrap_err();
-        assert!(matches!(error, ContactError::Tension { .. }), "{error}");
+        assert!(matches!(error, ContactError::Solve(SolveError::Tension { .. })), "{error}");
         let solution = solver.solve(&parted, load).unwrap();
         assert!(solution.intervals().len() > 1, "{solution:?}");
     }
     let rule = Midpoint { segments: 256, ..Midpoint::default() };
     for one in [parted, second] {
         let error = one.quadrature(&rule).solve(load).map(|_| ()).unwrap_err();
-        assert!(matches!(error, ContactError::Tension { .. }), "{error}");
+        assert!(matches!(error, ContactError::Solve(SolveError::Tension { .. })), "{error}");
     }
     first.quadrature(&rule).solve(load).unwrap();
 }
@@ -448,7 +469,9 @@ fn closed_forms_are_contacts() {
             // The body ends in the trough of the wave, 0.3 from the edge: there the terms 2 J_k of
             // its slope leave a gap of 0.0411 - 0.0524.
             let error = found.unwrap_err();
-            let ContactError::Overlap { x, gap, .. } = error else { panic!("{error}") };
+            let ContactError::Solve(SolveError::Overlap { x, gap, .. }) = error else {
+                panic!("{error}")
+            };
             assert!((x.abs() - 1.0).abs() < 1e-12 && (gap + 0.0113).abs() < 1e-4, "{error}");
             continue;
         }
@@ -494,7 +517,11 @@ fn a_kink_that_nobody_declared() {
         let contact = Contact::new(&Flat, &*body).unwrap().single_interval(true);
         let found = contact.solve(Control::Load(1.5 / PI)).unwrap().certify();
         // The pressure at the slighter kink is negative only at distances below rounding.
-        assert_eq!(matches!(found, Err(ContactError::Tension { .. })), parts, "{found:?}");
+        assert_eq!(
+            matches!(found, Err(ContactError::Solve(SolveError::Tension { .. }))),
+            parts,
+            "{found:?}"
+        );
     }
 }
 
@@ -528,10 +555,13 @@ fn a_corner_without_adhesion_bears_no_tension_beside_an_adhesive_edge() {
     let edges = [Edge::Fixed(-0.1), Edge::Adhesive(1e-3)];
     let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
     let error = contact.solve(Control::Load(-0.005)).unwrap_err();
-    assert!(matches!(error, ContactError::LiftsOff { x: -0.1, .. }), "{error}");
+    assert!(matches!(error, ContactError::Solve(SolveError::LiftsOff { x: -0.1, .. })), "{error}");
     let contact = contact.single_interval(true);
     let found = contact.solve(Control::Load(-0.005)).unwrap().certify();
-    assert!(matches!(found, Err(ContactError::Tension { x: -0.1, .. })), "{found:?}");
+    assert!(
+        matches!(found, Err(ContactError::Solve(SolveError::Tension { x: -0.1, .. }))),
+        "{found:?}"
+    );
     assert!(contact.solve(Control::Load(0.05)).unwrap().certify().is_ok());
 }
 
@@ -555,7 +585,9 @@ fn what_the_panels_have_missed_is_not_certified() {
         let Ok(solution) = contact.solve(Control::Load(0.02)) else { continue };
         let unaware = (solution.a() - 0.2).abs() < 1e-12;
         match solution.certify() {
-            Err(ContactError::FeatureMissed { x, slope, assumed }) if unaware => {
+            Err(ContactError::Solve(SolveError::FeatureMissed { x, slope, assumed }))
+                if unaware =>
+            {
                 missed += 1;
                 assert!((x - at).abs() < wide / 2.0, "{x} {at}");
                 assert!(
@@ -583,7 +615,9 @@ fn a_kink_downwards_far_out() {
         let body = kink(x, s);
         let contact = Contact::new(&Flat, &*body).unwrap().single_interval(true);
         let error = contact.solve(Control::Load(1.0)).unwrap().certify().unwrap_err();
-        let ContactError::Tension { x: there, pressure, .. } = error else { panic!("{error}") };
+        let ContactError::Solve(SolveError::Tension { x: there, pressure, .. }) = error else {
+            panic!("{error}")
+        };
         assert!(there == x && pressure == f64::NEG_INFINITY, "{there} {pressure}");
     }
 }
@@ -663,9 +697,11 @@ fn a_body_that_has_changed_is_not_certified() {
         solution.certify().unwrap();
         half.store(true, std::sync::atomic::Ordering::Relaxed);
         match solution.certify() {
-            Err(ContactError::FeatureMissed { .. }) if !midpoint => {}
+            Err(ContactError::Solve(SolveError::FeatureMissed { .. })) if !midpoint => {}
             // F/L - m₁ = (1 - 1/4) L/2, divided by π.
-            Err(ContactError::Unbalanced { strength, allowed, .. }) if midpoint => {
+            Err(ContactError::Solve(SolveError::Unbalanced { strength, allowed, .. }))
+                if midpoint =>
+            {
                 assert!((strength * PI / 0.075 - 1.0).abs() < 1e-6, "{strength}");
                 assert!(allowed < 1e-6, "{allowed}");
             }
@@ -683,7 +719,9 @@ fn heights_that_are_no_numbers_are_not_certified() {
         });
         let contact = Contact::new(&Flat, &body).unwrap().certified(true);
         let error = contact.solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
-        let ContactError::Profile { source, .. } = error else { panic!("{error}") };
+        let ContactError::Input(InputError::Profile { source, .. }) = error else {
+            panic!("{error}")
+        };
         let linecontact::ProfileError::NotFinite { quantity: "Y", k, .. } = source else {
             panic!("{source}")
         };

@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{NanSafe, Shares, graph, parabola, worst};
-use linecontact::{Contact, ContactError, Control, Edge, Flat, Solution};
+use linecontact::{Contact, ContactError, Control, Edge, Flat, Solution, SolveError};
 use std::f64::consts::PI;
 
 const KAPPA: f64 = 1.7;
@@ -156,7 +156,7 @@ fn least_gaps(seed: u64, edges: [bool; 2], corners: [bool; 2]) -> [usize; 2] {
                 with_gap += 1;
                 [near.x, near.value]
             }
-            Err(ContactError::Overlap { x, gap, .. }) => [x, gap],
+            Err(ContactError::Solve(SolveError::Overlap { x, gap, .. })) => [x, gap],
             Err(_) => continue,
         };
         let size = solution.hull().half_width().powi(2);
@@ -229,7 +229,7 @@ fn slight_bumps_between_the_nodes_are_not_certified() {
         let contact = Contact::new(&Flat, &*body).unwrap();
         let certificate = contact.solve(Control::Load(0.08)).unwrap().certify();
         assert!(
-            matches!(certificate, Err(ContactError::FeatureMissed { x, .. }) if (x - at).abs() < width),
+            matches!(certificate, Err(ContactError::Solve(SolveError::FeatureMissed { x, .. })) if (x - at).abs() < width),
             "{scene}: {size:e} at {at}, {width}: {certificate:?}"
         );
     }

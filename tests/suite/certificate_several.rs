@@ -9,7 +9,7 @@ use linecontact::reference::{
     ClosedForm, Hertz, PolynomialMap, Quartic, RoundedPunch, UnequalRadii, Wedge, body,
 };
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Edge, Extremum, Flat, Piecewise,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Extremum, Flat, Piecewise, SolveError,
 };
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -291,7 +291,9 @@ fn a_narrow_asperity_between_two_contacts_or_beside_them() {
             let due = -off * touching;
             let near = match solution.certify() {
                 Ok(certificate) if off < 0.0 => certificate.gap.expect("it comes near"),
-                Err(ContactError::Overlap { x, gap: value, .. }) if off > 0.0 => {
+                Err(ContactError::Solve(SolveError::Overlap { x, gap: value, .. }))
+                    if off > 0.0 =>
+                {
                     Extremum { x, value }
                 }
                 // The solver has seen it.
@@ -319,7 +321,9 @@ fn what_the_panels_of_one_contact_have_missed() {
         let Ok(solution) = contact.solve(Control::Load(Pair::LOAD)) else { continue };
         let unaware = solution.intervals().len() == 2 && (solution.a() - to).abs() < 1e-12;
         match solution.certify() {
-            Err(ContactError::FeatureMissed { x, slope, assumed }) if unaware => {
+            Err(ContactError::Solve(SolveError::FeatureMissed { x, slope, assumed }))
+                if unaware =>
+            {
                 missed += 1;
                 let smooth = 4.0 * x.powi(3) - 4.0 * x;
                 assert!((x - at).abs() < width / 2.0, "{x}, {at}");
@@ -347,7 +351,9 @@ fn heights_that_do_not_go_with_the_contacts() {
     solution.certify().unwrap();
     sunk.store(true, Ordering::Relaxed);
     let error = solution.certify().unwrap_err();
-    let ContactError::Unbalanced { x, strength, allowed } = error else { panic!("{error}") };
+    let ContactError::Solve(SolveError::Unbalanced { x, strength, allowed }) = error else {
+        panic!("{error}")
+    };
     let [_, b] = Pair::new().limits();
     assert!((x - b).abs() < 1e-12 && allowed < 1e-3 * strength, "{error}");
     // P = 2x sqrt((x² - α²)(β² - x²)); a limit with this error leaves this strength.

@@ -5,8 +5,8 @@ use crate::common;
 use common::paper;
 use linecontact::profile::Piece;
 use linecontact::{
-    Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, ParametricProfile, Piecewise,
-    ProfileError, check_derivatives,
+    Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, InputError, ParametricProfile,
+    Piecewise, ProfileError, check_derivatives,
 };
 
 type Profile = Box<dyn ParametricProfile<f64>>;
@@ -259,7 +259,10 @@ fn derivatives_that_are_wrong() {
         assert_eq!(quantity, name);
         // Without that check the solver finds that slopes and heights disagree.
         let error = solve(&body).unwrap_err();
-        let ContactError::Profile { source: ProfileError::Derivative { quantity, .. }, .. } = error
+        let ContactError::Input(InputError::Profile {
+            source: ProfileError::Derivative { quantity, .. },
+            ..
+        }) = error
         else {
             panic!("{error}")
         };
@@ -284,12 +287,16 @@ fn slopes_that_are_a_third_off() {
             for (body, contact) in [(Body::Lower, left), (Body::Upper, right)] {
                 let error = contact.unwrap().solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
                 // Smaller faults show in the rise over a whole panel.
-                let by_rise = matches!(error, ContactError::InconsistentHeights { .. });
+                let by_rise =
+                    matches!(error, ContactError::Input(InputError::InconsistentHeights { .. }));
                 assert_eq!(by_rise, !seen, "{factor}: {error:?}");
                 if by_rise {
                     continue;
                 }
-                let ContactError::Profile { body: at_fault, source } = error else { panic!() };
+                let ContactError::Input(InputError::Profile { body: at_fault, source }) = error
+                else {
+                    panic!()
+                };
                 let ProfileError::Derivative { k, given, difference, .. } = source else {
                     panic!()
                 };

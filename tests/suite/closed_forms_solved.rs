@@ -8,7 +8,7 @@ use approx::assert_relative_eq;
 use forms::{Form, KAPPA, forms};
 use linecontact::reference::{ClosedForm, Ellipse, Exponential, PowerLaw, Wedge, body};
 use linecontact::search::{Bisection, LimitSearch, Secant};
-use linecontact::{Contact, ContactError, Control, Cost, Flat, Interval};
+use linecontact::{Contact, ContactError, Control, Cost, Flat, Interval, SolveError};
 use std::f64::consts::PI;
 
 #[test]
@@ -97,7 +97,12 @@ fn a_load_lost_in_the_rounding_of_the_forces_is_refused() {
     for strategy in [&Bisection::default() as &dyn LimitSearch<f64>, &Secant::default()] {
         let contact = Contact::new(&Flat, &body).unwrap().limit_search(strategy);
         let refused = contact.solve(Control::Load(1e10));
-        let Err(ContactError::DomainTooShort { end: -300.0, carried, half_width, .. }) = refused
+        let Err(ContactError::Solve(SolveError::DomainTooShort {
+            end: -300.0,
+            carried,
+            half_width,
+            ..
+        })) = refused
         else {
             panic!("{refused:?}")
         };

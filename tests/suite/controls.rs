@@ -6,7 +6,7 @@ use crate::common;
 use common::{Profile, Shares, graph, on_flat};
 use linecontact::{
     Contact, ContactError, Control, Edge, Flat, Material, Piecewise, PlaneState, Reference,
-    References, Solution,
+    References, Solution, SolveError,
 };
 use std::f64::consts::PI;
 
@@ -43,7 +43,9 @@ fn two_contacts_of_a_quartic_by_their_width_and_by_their_peak() {
 fn a_value_in_a_jump_is_refused_with_both_sides() {
     // Under the lightest load the hull already spans both equal hills.
     let error = quartic().solve(Control::HalfWidth(0.5)).unwrap_err();
-    let ContactError::InJump { wanted, below, above, .. } = error else { panic!("{error}") };
+    let ContactError::Solve(SolveError::InJump { wanted, below, above, .. }) = error else {
+        panic!("{error}")
+    };
     assert_eq!((wanted, below), (0.5, 0.0));
     assert!((1.0..1.1).contains(&above), "{above}");
 
@@ -54,7 +56,9 @@ fn a_value_in_a_jump_is_refused_with_both_sides() {
     });
     let contact = on_flat(body);
     let error = contact.solve(Control::HalfWidth(0.5)).unwrap_err();
-    let ContactError::InJump { load, below, above, .. } = error else { panic!("{error}") };
+    let ContactError::Solve(SolveError::InJump { load, below, above, .. }) = error else {
+        panic!("{error}")
+    };
     let sides = [1.0 - 1e-7, 1.0 + 1e-7].map(|times| {
         let solution = contact.solve(Control::Load(times * load)).unwrap();
         (solution.intervals().len(), solution.hull().half_width())
@@ -198,8 +202,8 @@ fn wrong(contact: &Contact<f64>, wanted: f64, control: Control<f64>) -> Option<S
             (!is_right).then(|| format!("{}: {is:?}, again {again:?}", solution.load()))
         }
         // On almost flat bodies, rounded heights do not show which place touches first.
-        Err(ContactError::InJump { load, .. }) if load < 1e-13 => None,
-        Err(error @ ContactError::InJump { load, below, above, .. }) => {
+        Err(ContactError::Solve(SolveError::InJump { load, .. })) if load < 1e-13 => None,
+        Err(error @ ContactError::Solve(SolveError::InJump { load, below, above, .. })) => {
             let sides = [below == 0.0, above.is_infinite()];
             let [less, more] = [1.0 - 1e-5, 1.0 + 1e-5].map(|times| under(times * load));
             let less = sides[0] || less.as_ref().is_ok_and(|&(less, _)| less <= wanted * 1.001);
@@ -207,8 +211,10 @@ fn wrong(contact: &Contact<f64>, wanted: f64, control: Control<f64>) -> Option<S
             (!(less && more && above > below * 1.001)).then(|| error.to_string())
         }
         Err(
-            error @ (ContactError::HalfWidthTooLarge { load, half_width, .. }
-            | ContactError::PeakTooHigh { load, half_width, .. }),
+            error @ ContactError::Solve(
+                SolveError::HalfWidthTooLarge { load, half_width, .. }
+                | SolveError::PeakTooHigh { load, half_width, .. },
+            ),
         ) => {
             let widest = under(load * (1.0 - 1e-6));
             let is_right = widest.as_ref().is_ok_and(|&(most, width)| {

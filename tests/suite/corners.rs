@@ -7,7 +7,7 @@ use approx::assert_relative_eq;
 use common::{graph, on_flat, parabola};
 use linecontact::profile::Parabola;
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Solution, Solver,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Solution, SolveError, Solver,
 };
 use std::f64::consts::PI;
 
@@ -90,7 +90,9 @@ fn a_corner_serves_every_control() {
     assert_eq!(solution.a(), 0.3);
     assert_relative_eq!(solution.load(), 0.4 * 0.3, epsilon = 0.0, max_relative = 1e-14);
     let error = contact.solve(Control::PeakPressure(2.0 * 0.3 / PI)).unwrap_err();
-    let ContactError::PeakTooHigh { half_width, found, .. } = error else { panic!("{error}") };
+    let ContactError::Solve(SolveError::PeakTooHigh { half_width, found, .. }) = error else {
+        panic!("{error}")
+    };
     assert_relative_eq!(half_width, 0.3, epsilon = 0.0, max_relative = 1e-12);
     assert_relative_eq!(found, 0.3 / PI, epsilon = 0.0, max_relative = 1e-12);
 }
@@ -180,12 +182,12 @@ fn corners_that_the_load_does_not_reach() {
     for edges in [[Edge::Fixed(-0.5), Edge::Free], [Edge::Free, Edge::Fixed(0.5)]] {
         let held = contact.clone().edges(edges[0], edges[1]);
         let error = held.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
-        assert!(matches!(error, ContactError::LiftsOff { .. }), "{error}");
+        assert!(matches!(error, ContactError::Solve(SolveError::LiftsOff { .. })), "{error}");
         assert!(error.to_string().contains("FreeUntil"), "{error}");
     }
     let given = contact.clone().edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
     let error = given.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
-    assert!(matches!(error, ContactError::LiftsOff { .. }), "{error}");
+    assert!(matches!(error, ContactError::Solve(SolveError::LiftsOff { .. })), "{error}");
     // As a single interval it solves the equation, and is reported as not checked.
     let solution = given.single_interval(true).solve(Control::Load(0.01)).unwrap();
     assert!(!solution.report().is_checked() && solution.edge_singularities().left < 0.0);

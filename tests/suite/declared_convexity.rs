@@ -3,8 +3,8 @@
 use crate::random_scenes::Dice;
 use linecontact::profile::{Crowning, Ellipse, Involute, Parabola, Placed, Placement};
 use linecontact::{
-    Contact, ContactError, Control, Convexity, Curve, CurvePoint, Flat, ParametricProfile, Piece,
-    Piecewise, Real,
+    Contact, ContactError, Control, Convexity, Curve, CurvePoint, Flat, InputError,
+    ParametricProfile, Piece, Piecewise, Real,
 };
 
 type Body<T> = Box<dyn ParametricProfile<T>>;
@@ -37,7 +37,9 @@ fn declared(half: f64, at: impl Fn(f64) -> CurvePoint<f64> + Send + Sync + 'stat
 /// Asserts that the error names places where the slope falls.
 fn is_refused(body: &dyn ParametricProfile<f64>, control: Control<f64>, case: &str) {
     let error = Contact::new(&Flat, body).unwrap().solve(control).map(|_| ()).unwrap_err();
-    let ContactError::NotConvex { between, slopes } = error else { panic!("{case}: {error}") };
+    let ContactError::Input(InputError::NotConvex { between, slopes }) = error else {
+        panic!("{case}: {error}")
+    };
     assert!(between[0] <= between[1] && slopes[0] > slopes[1], "{case}: {error}");
 }
 
@@ -218,7 +220,7 @@ fn right_words<T: Real>(scenes: u64) -> usize {
         match contact.solve(control) {
             Ok(_) => solved += 1,
             Err(error) => {
-                let is_it = matches!(error, ContactError::NotConvex { .. });
+                let is_it = matches!(error, ContactError::Input(InputError::NotConvex { .. }));
                 assert!(!is_it, "scene {seed}, {control:?}: {error}");
             }
         }

@@ -4,7 +4,7 @@
 use crate::common::{self, NanSafe, assert_close, paper, parabola, reference, strategies};
 use linecontact::search::StoppingCriteria;
 use linecontact::{
-    Contact, ContactError, Control, EdgePressure, Exponents, Flat, Interval, Midpoint,
+    Contact, ContactError, Control, EdgePressure, Exponents, Flat, Interval, Midpoint, SolveError,
 };
 use std::f64::consts::PI;
 
@@ -70,7 +70,7 @@ fn edge_pressures_that_cannot_be_met() {
     let strict = EdgePressure { at_a: 0.1, at_b: 0.1, ..EdgePressure::zero(0.05, 1e-30) };
     let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(strict);
     match contact.solve(Control::Load(0.1)) {
-        Err(ContactError::EdgePressureNotMet { best, at_a, at_b }) => {
+        Err(ContactError::Solve(SolveError::EdgePressureNotMet { best, at_a, at_b })) => {
             assert!(at_a.abs() < 1e-12 && at_b.abs() < 1e-12);
             assert!((best.half_width() / 0.2f64.sqrt() - 1.0).abs() < 0.2, "{best:?}");
         }
@@ -88,7 +88,9 @@ fn edge_pressures_that_take_a_wider_contact_than_the_bodies() {
     let wanted = EdgePressure::zero(distance, 1e-3);
     let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(wanted);
     let error = contact.solve(Control::Load(load)).unwrap_err();
-    let ContactError::EdgePressureNotMet { best, at_a, at_b } = error else { panic!("{error}") };
+    let ContactError::Solve(SolveError::EdgePressureNotMet { best, at_a, at_b }) = error else {
+        panic!("{error}")
+    };
     for limit in [best.right, -best.left] {
         assert!((limit - 1.0).abs() < 1e-12, "{best:?}");
     }

@@ -7,8 +7,8 @@ use approx::assert_relative_eq;
 use common::{NanSafe, graph, on_flat, parabola};
 use linecontact::search::{Brent, SearchError, StoppingCriteria};
 use linecontact::{
-    Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, EdgePressure, Flat, Interval,
-    Midpoint, ParametricProfile, ProfileError,
+    Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, EdgePressure, Flat, InputError,
+    Interval, Midpoint, ParametricProfile, ProfileError, SolveError,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
@@ -32,14 +32,14 @@ fn of_a_known_interval_any_finite_load_makes_sense() {
         assert!(contact.solve(Control::Load(load)).is_ok());
     }
     let error = contact.solve(Control::Load(f64::NAN)).unwrap_err();
-    assert!(matches!(error, ContactError::InvalidLoad { .. }));
+    assert!(matches!(error, ContactError::Input(InputError::InvalidLoad { .. })));
 }
 
 #[test]
 fn a_load_too_large_for_the_domain() {
     // A parabola that extends to x = ±1 carries F = 1/2 at most.
     for load in [0.51, 2.0, 1e10, 1e300] {
-        let ContactError::DomainTooShort { end, carried, load: asked, .. } =
+        let ContactError::Solve(SolveError::DomainTooShort { end, carried, load: asked, .. }) =
             error(&Flat, &*parabola(1.0), load)
         else {
             panic!("load {load}")
@@ -50,7 +50,7 @@ fn a_load_too_large_for_the_domain() {
     // Short on one side only: the contact reaches that side first.
     let short = |left, right| graph(left, right, |x| [x * x / 2.0, x]);
     for (left, right, end) in [(-0.3, 5.0, -0.3), (-5.0, 0.2, 0.2)] {
-        let ContactError::DomainTooShort { end: reached, carried, .. } =
+        let ContactError::Solve(SolveError::DomainTooShort { end: reached, carried, .. }) =
             error(&Flat, &*short(left, right), 0.32)
         else {
             panic!("[{left}, {right}]")
@@ -67,7 +67,8 @@ fn a_load_too_large_for_the_domain() {
     {
         let held = contact.clone().edges(edges[0], edges[1]);
         let error = held.solve(Control::Load(2.0));
-        let Err(ContactError::DomainTooShort { end, carried, .. }) = error else {
+        let Err(ContactError::Solve(SolveError::DomainTooShort { end, carried, .. })) = error
+        else {
             panic!("{error:?}")
         };
         let l = 0.5 * (1.0 - x0);
@@ -100,7 +101,8 @@ fn a_load_too_large_on_the_gentle_side() {
         for times in [1.01, 1.5, 3.0, 10.0, 100.0] {
             for (body, wanted) in [(&right, 1.0), (&left, -1.0)] {
                 let error = error(&Flat, &**body, times * most);
-                let ContactError::DomainTooShort { end, carried, .. } = error else {
+                let ContactError::Solve(SolveError::DomainTooShort { end, carried, .. }) = error
+                else {
                     panic!("{s} {times}: {error}")
                 };
                 assert_eq!(end, wanted, "{s} {times}");
@@ -115,17 +117,23 @@ fn bodies_that_do_not_meet() {
     let parabola_at = |from, to| graph(from, to, |x| [x * x / 2.0, x]);
     // Upside down: the gap closes away from x = 0.
     let inverted = error(&*parabola(1.0), &Flat, 0.1);
-    assert!(matches!(inverted, ContactError::NoFirstContact { .. }), "{inverted}");
+    assert!(
+        matches!(inverted, ContactError::Solve(SolveError::NoFirstContact { .. })),
+        "{inverted}"
+    );
     // Flat on flat: no edge anywhere.
     let level = graph(-1.0, 1.0, |_| [0.0, 0.0]);
     let flat = error(&Flat, &*level, 0.1);
-    assert!(matches!(flat, ContactError::NoFirstContact { .. }), "{flat}");
+    assert!(matches!(flat, ContactError::Solve(SolveError::NoFirstContact { .. })), "{flat}");
     // The lowest point lies beyond the domain.
     let beyond = error(&Flat, &*parabola_at(0.1, 1.0), 0.1);
-    assert!(matches!(beyond, ContactError::NoFirstContact { .. }), "{beyond}");
+    assert!(matches!(beyond, ContactError::Solve(SolveError::NoFirstContact { .. })), "{beyond}");
     // Side by side.
     let beside = error(&*parabola_at(-2.0, -1.0), &*parabola_at(0.0, 1.0), 0.1);
-    assert_eq!(beside, ContactError::NoCommonRange { lower: [-2.0, -1.0], upper: [0.0, 1.0] });
+    assert_eq!(
+        beside,
+        ContactError::Input(InputError::NoCommonRange { lower: [-2.0, -1.0], upper: [0.0, 1.0] })
+    );
 }
 
 #[test]
@@ -139,7 +147,10 @@ fn a_fold_is_an_error_of_that_body() {
     let error = error(&Flat, &fold, 1.0);
     assert!(matches!(
         error,
-        ContactError::Profile { body: Body::Upper, source: ProfileError::TurnsBack { .. } }
+        ContactError::Input(InputError::Profile {
+            body: Body::Upper,
+            source: ProfileError::TurnsBack { .. }
+        })
     ));
     assert!(error.to_string().contains("upper body: X turns back at k = -0.288"), "{error}");
 }
@@ -151,7 +162,9 @@ fn a_spent_budget_carries_the_best_limits() {
         Brent { tolerance: StoppingCriteria { max_evaluations: 2, ..StoppingCriteria::FULL } };
     let contact = Contact::new(&Flat, &*body).unwrap().limit_search(&hasty);
     let error = contact.solve(Control::Load(0.03)).unwrap_err();
-    let ContactError::LimitSearch { best, source: SearchError::Budget { .. } } = error else {
+    let ContactError::Solve(SolveError::LimitSearch { best, source: SearchError::Budget { .. } }) =
+        error
+    else {
         panic!("{error}")
     };
     assert!((best.half_width() / 0.24 - 1.0).abs() < 0.5, "{best:?}");
@@ -166,7 +179,10 @@ fn an_inversion_that_gives_up() {
     let contact = Contact::new(&*body.lower, &*body.upper).unwrap();
     let contact = contact.inversion(&hasty).quadrature(&rule);
     let error = contact.solve(Control::Load(body.c / PI)).unwrap_err();
-    assert!(matches!(error, ContactError::Inversion { source: SearchError::Budget { .. }, .. }));
+    assert!(matches!(
+        error,
+        ContactError::Solve(SolveError::Inversion { source: SearchError::Budget { .. }, .. })
+    ));
 }
 
 /// Any value of any number: no panic, no endless loop, and Hertz's contact or an error.
@@ -251,7 +267,7 @@ proptest! {
             }
             Err(error) => {
                 prop_assert!(exact > reach * (1.0 - 1e-12), "{} at {}", error, exact);
-                let too_short = matches!(error, ContactError::DomainTooShort { .. });
+                let too_short = matches!(error, ContactError::Solve(SolveError::DomainTooShort { .. }));
                 prop_assert!(too_short, "{}", error);
             }
         }
@@ -269,7 +285,11 @@ fn a_profile_that_fails_where_the_bodies_touch_first_is_named() {
     for start in [[-0.5, 0.9], [-0.8, 0.3], [-0.2, 0.9]] {
         let contact = contact.clone().start(Interval { left: start[0], right: start[1] });
         let error = contact.solve(Control::Load(0.1)).unwrap_err();
-        let ContactError::Profile { source: ProfileError::NotFinite { k, .. }, .. } = error else {
+        let ContactError::Input(InputError::Profile {
+            source: ProfileError::NotFinite { k, .. },
+            ..
+        }) = error
+        else {
             panic!("{error}")
         };
         assert!((k - 0.07).abs() < 1e-3, "{k}");
@@ -296,7 +316,10 @@ fn a_profile_that_fails_after_a_while_is_named_under_a_given_peak() {
                 failed += 1;
                 let named = matches!(
                     error,
-                    ContactError::Profile { source: ProfileError::NotFinite { .. }, .. }
+                    ContactError::Input(InputError::Profile {
+                        source: ProfileError::NotFinite { .. },
+                        ..
+                    })
                 );
                 assert!(named, "{most}: {error}");
             }
@@ -320,10 +343,10 @@ fn a_slope_given_by_x_that_fails_is_named() {
         }
     }
     let error = error(&Flat, &Graph, 0.1);
-    let ContactError::Profile {
+    let ContactError::Input(InputError::Profile {
         body: Body::Upper,
         source: ProfileError::NotFinite { quantity, k, value },
-    } = error
+    }) = error
     else {
         panic!("{error}")
     };
@@ -337,7 +360,10 @@ fn a_profile_that_fails_under_a_pull_is_named() {
         graph(-1.0, 1.0, |x| [x * x / 2.0, if x > 0.05 && x < 0.5 { f64::NAN } else { x }]);
     let contact = Contact::new(&Flat, &*failing).unwrap().edges(glued, glued);
     let error = contact.solve(Control::Load(-1e-3)).unwrap_err();
-    let ContactError::Profile { source: ProfileError::NotFinite { k, .. }, .. } = error else {
+    let ContactError::Input(InputError::Profile {
+        source: ProfileError::NotFinite { k, .. }, ..
+    }) = error
+    else {
         panic!("{error}")
     };
     assert!(k > 0.05 && k < 0.5, "{k}");
@@ -350,7 +376,9 @@ fn a_spent_budget_of_a_peak_carries_the_best_limits() {
     let hasty =
         Brent { tolerance: StoppingCriteria { max_evaluations: 1, ..StoppingCriteria::FULL } };
     let error = contact.limit_search(&hasty).solve(Control::PeakPressure(0.1)).unwrap_err();
-    let ContactError::LimitSearch { best, source: SearchError::Budget { .. } } = error else {
+    let ContactError::Solve(SolveError::LimitSearch { best, source: SearchError::Budget { .. } }) =
+        error
+    else {
         panic!("{error}")
     };
     assert!((best.half_width() / exact - 1.0).abs() < 0.5, "{best:?} {exact}");
@@ -364,14 +392,20 @@ fn distances_and_loads_that_numbers_cannot_hold() {
         for contact in [contact.clone(), contact.clone().quadrature(&Midpoint::DEFAULT)] {
             let contact = contact.edge_pressure(EdgePressure::zero(distance, 1e-6));
             let error = contact.solve(Control::Load(0.01)).map(|_| ()).unwrap_err();
-            assert_eq!(error, ContactError::InvalidEdgePressure { name: "ε_a", value: distance });
+            assert_eq!(
+                error,
+                ContactError::Input(InputError::InvalidEdgePressure {
+                    name: "ε_a",
+                    value: distance
+                })
+            );
         }
     }
     let held = contact.edges(Edge::Fixed(-0.1), Edge::Fixed(0.1));
     let alone = held.clone().single_interval(true);
     for (held, load) in [(&held, 1e308), (&alone, 1e308), (&alone, -1e308), (&held, f64::MAX)] {
         let error = held.solve(Control::Load(load)).map(|_| ()).unwrap_err();
-        assert!(matches!(error, ContactError::Overflow { .. }), "{error}");
+        assert!(matches!(error, ContactError::Solve(SolveError::Overflow { .. })), "{error}");
     }
     // P = F/(π sqrt(L² - x²)), next to which the effect of the parabola is negligible.
     let pressure = held.solve(Control::Load(1e300)).unwrap().pressure().unwrap().at(0.06).unwrap();
@@ -405,11 +439,11 @@ fn a_step_of_the_heights() {
                 let expected = seen || overlaps;
                 assert!(at_once == expected || step == 1e-4 && !at_once, "{step} at {at}");
                 let error = solved.and_then(|found| found.certify().map(|_| ())).unwrap_err();
-                let ContactError::InconsistentHeights {
+                let ContactError::Input(InputError::InconsistentHeights {
                     between: [one, two],
                     by_heights,
                     by_slopes,
-                } = error
+                }) = error
                 else {
                     panic!("{step} at {at}: {error}")
                 };
@@ -458,7 +492,10 @@ fn a_slope_by_x_that_is_wrong() {
     for off in [1e-3, 0.3, -0.3] {
         let body = WrongSlope(off, Unknown);
         let error = Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap_err();
-        let ContactError::Profile { source: ProfileError::Derivative { quantity, .. }, .. } = error
+        let ContactError::Input(InputError::Profile {
+            source: ProfileError::Derivative { quantity, .. },
+            ..
+        }) = error
         else {
             panic!("{error}")
         };
@@ -466,7 +503,10 @@ fn a_slope_by_x_that_is_wrong() {
         let body = WrongSlope(off, Convex);
         let solution = Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap();
         let error = solution.certify().unwrap_err();
-        assert!(matches!(error, ContactError::InconsistentHeights { .. }), "{error}");
+        assert!(
+            matches!(error, ContactError::Input(InputError::InconsistentHeights { .. })),
+            "{error}"
+        );
     }
     let body = WrongSlope(0.0, Unknown);
     Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap().certify().unwrap();

@@ -6,7 +6,9 @@ use crate::common::{Counting, Profile, Strategy};
 use crate::random_scenes::Dice;
 use linecontact::profile::{Involute, Placed, Placement};
 use linecontact::search::SearchError;
-use linecontact::{Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval};
+use linecontact::{
+    Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval, SolveError,
+};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Least count of evaluations under half the load that others are compared with.
@@ -118,7 +120,7 @@ fn a_strategy_that_stops_in_the_middle_is_refused_beside_noise() {
     let same =
         |other: &SearchError<f64>| std::mem::discriminant(other) == std::mem::discriminant(&source);
     assert!(
-        matches!(&error, ContactError::Inversion { body: Body::Upper, source, .. } if same(source)),
+        matches!(&error, ContactError::Solve(SolveError::Inversion { body: Body::Upper, source, .. }) if same(source)),
         "{error}"
     );
 }
@@ -141,7 +143,7 @@ fn overloaded(dice: &mut Dice, radius: f64, noisy: bool, times: f64) -> Result<f
     let taken = half.cost().evaluations + half.cost().heights;
     count.store(0, Ordering::Relaxed);
     match contact.solve(Control::Load(times * bears)).map(|_| ()) {
-        Err(ContactError::DomainTooShort { carried, .. }) => {
+        Err(ContactError::Solve(SolveError::DomainTooShort { carried, .. })) => {
             let share = half_width / (radius * at * at);
             if (carried / bears - 1.0).abs() > 10.0 * share + 1e-6 {
                 return Err(format!("{flank:?} bears {carried:e}, not {bears:e}"));

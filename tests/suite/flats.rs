@@ -16,7 +16,9 @@
 
 use crate::common::{Shares, graph};
 use linecontact::profile::{Ellipse, Placed, Placement, rounded_punch};
-use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, Piecewise, Solver};
+use linecontact::{
+    Contact, ContactError, Control, Curve, CurvePoint, Flat, Piecewise, SolveError, Solver,
+};
 use linecontact::{Interval, ParametricProfile};
 use std::f64::consts::PI;
 
@@ -161,7 +163,10 @@ impl Punch {
     /// Tells whether an overload error is right: the contact that reaches the end carries less than
     /// the load.
     fn is_too_short(&self, error: &ContactError<f64>) -> bool {
-        let ContactError::DomainTooShort { end, carried, load, half_width, .. } = *error else {
+        let ContactError::Solve(SolveError::DomainTooShort {
+            end, carried, load, half_width, ..
+        }) = *error
+        else {
             return false;
         };
         let last = self.body.pieces() - 1;

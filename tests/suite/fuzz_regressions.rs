@@ -8,7 +8,7 @@ use common::{Profile, graph, join, on_flat};
 use linecontact::search::Brent;
 use linecontact::{
     Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, Exponents, Flat, Interval,
-    Midpoint, Panels,
+    Midpoint, Panels, SolveError,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -324,7 +324,9 @@ fn a_search_spends_no_more_than_its_budget() {
     let error = contact.solve(Control::PeakPressure(0.07)).unwrap_err();
     let taken = taken.load(Ordering::Relaxed);
     assert!(taken < (1 << 20) + 4096, "{taken}");
-    let ContactError::BudgetSpent { evaluations, budget, last } = error else { panic!("{error}") };
+    let ContactError::Solve(SolveError::BudgetSpent { evaluations, budget, last }) = error else {
+        panic!("{error}")
+    };
     assert_eq!(budget, (1 << 20) + 2048);
     assert!(evaluations > budget && evaluations < budget + 256, "{evaluations}");
     assert!(last.left < last.right && last.left >= -1.1 && last.right <= 1.1);

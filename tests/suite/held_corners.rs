@@ -7,7 +7,8 @@ use linecontact::profile::Ellipse;
 use linecontact::quadrature::Quadrature;
 use linecontact::search::Brent;
 use linecontact::{
-    Contact, ContactError, Control, Cost, Edge, Flat, Interval, Midpoint, Outcome, Panels, Solution,
+    Contact, ContactError, Control, Cost, Edge, Flat, InputError, Interval, Midpoint, Outcome,
+    Panels, Solution, SolveError,
 };
 use std::f64::consts::PI;
 
@@ -32,7 +33,7 @@ fn a_roller_held_beyond_its_contact_lifts_off() {
     for quadrature in quadratures {
         let held = held.clone().quadrature(quadrature);
         let error = held.solve(Control::Load(500.0)).map(|s| s.hull()).unwrap_err();
-        assert!(matches!(error, ContactError::LiftsOff { .. }), "{error}");
+        assert!(matches!(error, ContactError::Solve(SolveError::LiftsOff { .. })), "{error}");
         let alone = held.single_interval(true).solve(Control::Load(500.0)).unwrap();
         assert!(!alone.report().is_checked() && alone.edge_singularities().left < 0.0);
         assert!(alone.to_string().contains(", not checked"), "{alone}");
@@ -64,7 +65,7 @@ fn a_wavy_punch_touches_in_several_places_between_its_corners() {
             [fixed(&contact, 0.5).quadrature(&rule), fixed(&contact, 0.5).limit_search(&brent)]
         {
             let error = one.solve(load).map(|s| s.hull()).unwrap_err();
-            assert!(matches!(error, ContactError::Tension { .. }), "{error}");
+            assert!(matches!(error, ContactError::Solve(SolveError::Tension { .. })), "{error}");
         }
     }
 }
@@ -88,7 +89,7 @@ fn a_tilted_punch_holds_at_both_corners_up_to_its_tilt() {
                         max_relative = 1e-9
                     );
                 }
-                Err(ContactError::LiftsOff { x, .. }) => {
+                Err(ContactError::Solve(SolveError::LiftsOff { x, .. })) => {
                     assert!(!holds);
                     assert_eq!(x, 0.5 * m.signum());
                 }
@@ -103,7 +104,10 @@ fn only_a_load_that_presses_makes_sense_unless_one_interval_is_asked_for() {
     let flat = on_flat(graph(-1.0, 1.0, |_| [0.0, 0.0]));
     for load in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {
         let error = fixed(&flat, 0.5).solve(Control::Load(load)).map(|s| s.hull()).unwrap_err();
-        assert!(matches!(error, ContactError::InvalidLoad { .. }), "{load}: {error}");
+        assert!(
+            matches!(error, ContactError::Input(InputError::InvalidLoad { .. })),
+            "{load}: {error}"
+        );
         let alone = fixed(&flat, 0.5).single_interval(true).solve(Control::Load(load));
         assert_eq!(alone.is_ok(), load.is_finite(), "{load}");
     }
@@ -120,7 +124,10 @@ fn corners_beyond_the_bodies_are_named_by_a_solver_too() {
         assert_eq!(solver.solve(&fixed(&contact, 0.5), load).unwrap().intervals().len(), 3);
         let beyond = contact.clone().edges(edges[0], edges[1]);
         let error = solver.solve(&beyond, load).map(|s| s.hull()).unwrap_err();
-        assert!(matches!(error, ContactError::OutsideBodies { x: 2.0, .. }), "{error}");
+        assert!(
+            matches!(error, ContactError::Solve(SolveError::OutsideBodies { x: 2.0, .. })),
+            "{error}"
+        );
     }
 }
 
@@ -332,7 +339,7 @@ fn other_ways(
     let rule = Midpoint::DEFAULT;
     match held.clone().quadrature(&rule).solve(control) {
         Ok(found) if alike(&found, known) => None,
-        Err(ContactError::Tension { .. }) if known.intervals().len() > 1 => None,
+        Err(ContactError::Solve(SolveError::Tension { .. })) if known.intervals().len() > 1 => None,
         Ok(found) => Some(format!("Midpoint: {found}")),
         Err(error) => Some(format!("Midpoint: {error}")),
     }
@@ -354,7 +361,7 @@ pub fn judge(seed: u64) -> (Verdict, String) {
                 None => (Verdict::Right, format!("{} contacts", solution.intervals().len())),
             }
         }
-        Err(ContactError::LiftsOff { x, .. }) => {
+        Err(ContactError::Solve(SolveError::LiftsOff { x, .. })) => {
             let until = contact.edges(Edge::FreeUntil(left), Edge::FreeUntil(right)).solve(control);
             let fault = match until {
                 // It ends before that corner, and is right.
@@ -391,7 +398,10 @@ fn corners_on_both_sides_that_pull_are_refused() {
     for at in [4.0, -4.0] {
         let control = Control::CentreOfPressure { load: 1000.0, at };
         let error = held.solve(control).map(|_| ()).unwrap_err();
-        assert!(matches!(error, ContactError::LiftsOff { x, .. } if x * at < 0.0), "{error}");
+        assert!(
+            matches!(error, ContactError::Solve(SolveError::LiftsOff { x, .. }) if x * at < 0.0),
+            "{error}"
+        );
         // The punch lifts off until its contact is four times as wide as the distance from the load
         // to its corner.
         let free = corners(Edge::FreeUntil(-5.0), Edge::FreeUntil(5.0));

@@ -6,7 +6,9 @@
 
 use crate::common::{self, Profile, Shares, graph, join};
 use linecontact::profile::Spline;
-use linecontact::{Contact, ContactError, Control, Cost, Flat, Interval, Solution};
+use linecontact::{
+    Contact, ContactError, Control, Cost, EvaluationError, Flat, Interval, Solution,
+};
 
 /// Number of places at which a pressure is compared with the largest.
 const PLACES: usize = 10_000;
@@ -133,10 +135,14 @@ fn places(on: Interval<f64>, joints: &[f64], count: usize) -> Vec<f64> {
 fn pressure_above(solution: &Solution<f64>, body: &Body) -> f64 {
     let pressure = solution.pressure().unwrap();
     let contacts: Vec<Interval<f64>> = common::intervals(solution);
-    let infinite = |x: f64| matches!(pressure.at(x), Err(ContactError::Singular { .. }));
+    let infinite = |x: f64| {
+        matches!(pressure.at(x), Err(ContactError::Evaluation(EvaluationError::Singular { .. })))
+    };
     let peak = match solution.peak() {
         Ok(peak) => peak,
-        Err(ContactError::Singular { x }) if infinite(x) => return 0.0,
+        Err(ContactError::Evaluation(EvaluationError::Singular { x })) if infinite(x) => {
+            return 0.0;
+        }
         Err(error) => panic!("{}: {error}", body.family),
     };
     let mut above = (pressure.at(peak.x).unwrap() / peak.pressure - 1.0).abs() - 1e-13;

@@ -6,7 +6,9 @@ use crate::common;
 use approx::assert_relative_eq;
 use common::{assert_close, graph, on_flat, paper, parabola, power, reference};
 use linecontact::search::Brent;
-use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval};
+use linecontact::{
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, InputError, Interval, SolveError,
+};
 use std::f64::consts::PI;
 
 /// Known values of a contact: limits, C, and the largest pressure.
@@ -96,7 +98,9 @@ fn a_wedge_has_a_width_but_no_peak() {
     }
     for peak in [1e-3, 1.0, 1e3] {
         let error = contact.solve(Control::PeakPressure(peak)).unwrap_err();
-        let ContactError::NoPeak { wanted, found, .. } = error else { panic!("{error}") };
+        let ContactError::Solve(SolveError::NoPeak { wanted, found, .. }) = error else {
+            panic!("{error}")
+        };
         assert_eq!((wanted, found), (peak, f64::INFINITY));
     }
 }
@@ -123,7 +127,7 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
             }
             let error = contact.solve(Control::PeakPressure(0.3)).unwrap_err();
             let edge = if free == 0 { left } else { right };
-            assert_eq!(error, ContactError::PeakEdge { edge });
+            assert_eq!(error, ContactError::Input(InputError::PeakEdge { edge }));
         }
     }
     // Two adhesive edges: F = L²/2 - 2 sqrt(w L), negative where the contact is narrow.
@@ -138,7 +142,7 @@ fn sharp_and_adhesive_edges_have_a_width_but_no_peak() {
     let load = 0.005 - 2.0 * (work * 0.1).sqrt();
     assert_relative_eq!(narrow.load(), load, epsilon = 0.0, max_relative = 1e-14);
     let error = adhesive.solve(Control::PeakPressure(0.3)).unwrap_err();
-    assert_eq!(error, ContactError::PeakEdge { edge: Edge::Adhesive(work) });
+    assert_eq!(error, ContactError::Input(InputError::PeakEdge { edge: Edge::Adhesive(work) }));
 }
 
 /// Load of a given width, by a search of one unknown at a time: an adhesive edge lowers it by the
@@ -170,7 +174,14 @@ fn the_error_says_that_the_bodies_are_too_short() {
     let contact = on_flat(parabola(1.0));
     for value in [1.01, 2.0, 1e6, 1e300] {
         let error = contact.solve(Control::HalfWidth(value)).unwrap_err();
-        let ContactError::HalfWidthTooLarge { wanted, half_width, end, load, peak, .. } = error
+        let ContactError::Solve(SolveError::HalfWidthTooLarge {
+            wanted,
+            half_width,
+            end,
+            load,
+            peak,
+            ..
+        }) = error
         else {
             panic!("{value}: {error}")
         };
@@ -192,7 +203,8 @@ fn the_error_says_that_the_bodies_are_too_short() {
 
 fn too_high(contact: &Contact<f64>, peak: f64, widest: f64, reached: f64) {
     let error = contact.solve(Control::PeakPressure(peak)).unwrap_err();
-    let ContactError::PeakTooHigh { wanted, half_width, found, .. } = error else {
+    let ContactError::Solve(SolveError::PeakTooHigh { wanted, half_width, found, .. }) = error
+    else {
         panic!("{error}")
     };
     assert_eq!(wanted, peak);
@@ -208,7 +220,9 @@ fn a_peak_too_high_is_measured_against_the_widest_contact_there_is_room_for() {
             [x * x / 2.0 + sign * x.powi(3) / 5.0, x + sign * 0.6 * x * x]
         }));
         let error = contact.solve(Control::PeakPressure(1.0)).unwrap_err();
-        let ContactError::PeakTooHigh { half_width, found, .. } = error else { panic!("{error}") };
+        let ContactError::Solve(SolveError::PeakTooHigh { half_width, found, .. }) = error else {
+            panic!("{error}")
+        };
         assert!(half_width > 0.3 && half_width < 0.5);
         assert!(contact.solve(Control::HalfWidth(half_width * (1.0 + 1e-9))).is_err());
         let fits = contact.solve(Control::HalfWidth(half_width * (1.0 - 1e-9))).unwrap();
@@ -284,7 +298,9 @@ fn a_width_lost_in_the_rounding_of_x_is_refused() {
         };
         let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
         let refused = contact.solve(Control::HalfWidth(2.6e-40));
-        let Err(ContactError::InvalidLimits { interval }) = refused else { panic!("{refused:?}") };
+        let Err(ContactError::Input(InputError::InvalidLimits { interval })) = refused else {
+            panic!("{refused:?}")
+        };
         assert_eq!([interval.left, interval.right], [fixed; 2]);
     }
 }
@@ -294,6 +310,9 @@ fn a_load_less_than_any_number_is_refused() {
     let contact = on_flat(parabola(1.0));
     for load in [Control::HalfWidth(1e-300), Control::PeakPressure(1e-300)] {
         let refused = contact.solve(load);
-        assert!(matches!(refused, Err(ContactError::Overflow { .. })), "{refused:?}");
+        assert!(
+            matches!(refused, Err(ContactError::Solve(SolveError::Overflow { .. }))),
+            "{refused:?}"
+        );
     }
 }

@@ -4,6 +4,7 @@ use crate::common::{NanSafe, Profile, graph};
 use crate::random_scenes::Dice;
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Flat, Panels, ParametricProfile, Piecewise,
+    SolveError,
 };
 
 /// Full width at half height of a bump, as a share of the contact.
@@ -153,7 +154,7 @@ fn a_bump_of_the_slope_that_the_panels_miss() {
         let panels = Panels { tolerance };
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&panels).certified(true);
         match contact.solve(Control::Load(0.02)) {
-            Err(ContactError::FeatureMissed { x, .. }) => {
+            Err(ContactError::Solve(SolveError::FeatureMissed { x, .. })) => {
                 assert!((x - x0).abs() < 4.0 * w, "missed at {x}, but the bump is at {x0}");
             }
             Err(error) => panic!("{error}"),

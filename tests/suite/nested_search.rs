@@ -10,6 +10,7 @@ use common::{assert_close, graph, strategies};
 use linecontact::search::{Brent, StoppingCriteria};
 use linecontact::{
     Contact, ContactError, Control, Edge, EdgePressure, Exponents, Flat, Interval, Midpoint,
+    SolveError,
 };
 
 /// Slope with first contact at x = 0.2707, for bodies that extend farther to the right.
@@ -167,7 +168,7 @@ fn up_to_the_most_that_a_gap_bears() {
                         assert_relative_eq!(carried, load, epsilon = 0.0, max_relative = 1e-13);
                         *count += other.unwrap().cost().evaluations;
                     }
-                    Err(ContactError::NoEquilibrium { half_width, near }) => {
+                    Err(ContactError::Solve(SolveError::NoEquilibrium { half_width, near })) => {
                         assert!(load > 0.0107, "{load}");
                         assert_relative_eq!(near, place, epsilon = 0.0, max_relative = 1e-12);
                         assert!((0.9 / 18f64.sqrt()..1.0).contains(&half_width), "{half_width}");
@@ -189,7 +190,12 @@ fn a_width_beyond_the_bodies_names_the_end() {
             for strategy in strategies(StoppingCriteria::FULL) {
                 let contact = contact.clone().limit_search(&*strategy);
                 let error = contact.solve(Control::HalfWidth(half_width)).unwrap_err();
-                let ContactError::HalfWidthTooLarge { wanted, half_width: room, end, .. } = error
+                let ContactError::Solve(SolveError::HalfWidthTooLarge {
+                    wanted,
+                    half_width: room,
+                    end,
+                    ..
+                }) = error
                 else {
                     panic!("{error}")
                 };
@@ -236,7 +242,13 @@ fn bodies_that_are_too_short_carry_so_much() {
             scenes.push(contact);
             for contact in scenes {
                 let error = contact.solve(Control::Load(load)).unwrap_err();
-                let ContactError::DomainTooShort { end, carried, load: asked, .. } = error else {
+                let ContactError::Solve(SolveError::DomainTooShort {
+                    end,
+                    carried,
+                    load: asked,
+                    ..
+                }) = error
+                else {
                     panic!("{error}")
                 };
                 assert_eq!([end, asked], [side * reach, load], "{edges:?}");
@@ -327,7 +339,9 @@ fn pressures_missed_are_those_of_the_best_contact() {
     let missed = |wanted| {
         let contact = contact.clone().limit_search(&sloppy).edge_pressure(wanted);
         match contact.solve(Control::Load(load)) {
-            Err(ContactError::EdgePressureNotMet { best, at_a, at_b }) => (best, [at_a, at_b]),
+            Err(ContactError::Solve(SolveError::EdgePressureNotMet { best, at_a, at_b })) => {
+                (best, [at_a, at_b])
+            }
             other => panic!("{other:?}"),
         }
     };
@@ -364,7 +378,9 @@ fn forces_beyond_any_number_are_an_overflow() {
         let contact = Contact::new(&Flat, &*body).unwrap().kappa(1e200).limit_search(&*strategy);
         for load in [1e-3, 1e300] {
             let error = contact.solve(Control::Load(load)).unwrap_err();
-            let ContactError::Overflow { interval } = error else { panic!("{error}") };
+            let ContactError::Solve(SolveError::Overflow { interval }) = error else {
+                panic!("{error}")
+            };
             assert!(interval.left < 0.0 && interval.right > 0.0, "{interval:?}");
         }
     }

@@ -5,7 +5,9 @@ use crate::common;
 use approx::assert_relative_eq;
 use common::{Counting, Profile, graph, on_flat};
 use linecontact::profile::{Involute, Parabola, Placed, Placement, rounded_punch, wedge};
-use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Side};
+use linecontact::{
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Side, SolveError,
+};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -106,15 +108,23 @@ fn scenes() -> Vec<Scene> {
 /// Returns the largest control, half-width and peak, and the end, from the error of an overload.
 fn bears(contact: &Contact<f64>, load: Control<f64>) -> [f64; 4] {
     match contact.solve(load).map(|solution| (solution.hull(), solution.limits_error())) {
-        Err(ContactError::DomainTooShort { carried, half_width, peak, end, .. }) => {
-            [carried, half_width, peak, end]
-        }
-        Err(ContactError::HalfWidthTooLarge { load, half_width, peak, end, .. }) => {
-            [load, half_width, peak, end]
-        }
-        Err(ContactError::PeakTooHigh { load, half_width, found, end, .. }) => {
-            [load, half_width, found, end]
-        }
+        Err(ContactError::Solve(SolveError::DomainTooShort {
+            carried,
+            half_width,
+            peak,
+            end,
+            ..
+        })) => [carried, half_width, peak, end],
+        Err(ContactError::Solve(SolveError::HalfWidthTooLarge {
+            load,
+            half_width,
+            peak,
+            end,
+            ..
+        })) => [load, half_width, peak, end],
+        Err(ContactError::Solve(SolveError::PeakTooHigh {
+            load, half_width, found, end, ..
+        })) => [load, half_width, found, end],
         other => panic!("{load:?}: {other:?}"),
     }
 }
@@ -197,7 +207,7 @@ fn no_load_beyond_what_is_borne_has_a_contact() {
         for i in 0..100 {
             let load = most * (1.002 + 1e-3 * (1e8f64.powf(f64::from(i) / 100.0) - 1.0));
             let error = contact.solve(Control::Load(load)).map(|_| ()).unwrap_err();
-            let ContactError::DomainTooShort { carried, .. } = error else {
+            let ContactError::Solve(SolveError::DomainTooShort { carried, .. }) = error else {
                 panic!("{load}: {error}")
             };
             assert!((carried / most - 1.0).abs() < 1e-12, "{carried} {most}");
@@ -223,10 +233,13 @@ fn a_punch_in_a_groove_bears_nothing_in_one_place() {
     let half_width = (2.0 * 1e-3 / (1.0 / 0.1 - 1.0 / 3.0f64)).sqrt();
     assert!((edge.hull().half_width() / half_width - 1.0).abs() < 0.02, "{edge:?}");
     let error = edge.certify().map(|_| ()).unwrap_err();
-    assert!(matches!(error, ContactError::Overlap { .. }), "{error}");
+    assert!(matches!(error, ContactError::Solve(SolveError::Overlap { .. })), "{error}");
     for load in [1.0, 1e3] {
         let error = contact.solve(Control::Load(load)).map(|_| ()).unwrap_err();
-        assert!(matches!(error, ContactError::NoEquilibrium { .. }), "{load}: {error}");
+        assert!(
+            matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. })),
+            "{load}: {error}"
+        );
     }
 }
 
@@ -273,7 +286,13 @@ fn the_peak_of_the_widest_contact_with_one_adhesive_edge() {
         let contact =
             Contact::new(&Flat, &body).unwrap().edges(edge(Side::Left), edge(Side::Right));
         let error = contact.solve(Control::Load(1.0)).map(|_| ()).unwrap_err();
-        let ContactError::DomainTooShort { carried, half_width: widest, peak, .. } = error else {
+        let ContactError::Solve(SolveError::DomainTooShort {
+            carried,
+            half_width: widest,
+            peak,
+            ..
+        }) = error
+        else {
             panic!("{glued:?}: {error}")
         };
         for (got, due, error) in
@@ -300,7 +319,7 @@ fn one_sided_most(p: f64, m: f64, mu: f64) -> [f64; 2] {
 /// Asserts that an overload is an error that names the capacity.
 fn assert_too_short(name: &str, contact: &Contact<f64>, load: f64, most: f64, end: f64, rel: f64) {
     match contact.solve(Control::Load(load)) {
-        Err(ContactError::DomainTooShort { end: at, carried, .. }) => {
+        Err(ContactError::Solve(SolveError::DomainTooShort { end: at, carried, .. })) => {
             let off = carried / most - 1.0;
             assert!(
                 off.abs() < rel,
@@ -403,7 +422,9 @@ fn what_two_flanks_bear_does_not_depend_on_the_load_asked_for() {
         let mut carried: Vec<f64> = Vec::new();
         for load in [1e-4, 1e-2, 1.0, 100.0, 1e3] {
             match contact.solve(Control::Load(load)) {
-                Err(ContactError::DomainTooShort { carried: most, end, .. }) => {
+                Err(ContactError::Solve(SolveError::DomainTooShort {
+                    carried: most, end, ..
+                })) => {
                     let first = -25.0 * origin * origin;
                     assert!((end / first - 1.0).abs() < 1e-3, "{origin}, {load}: {end}, {first}");
                     carried.push(most);
@@ -458,7 +479,7 @@ fn a_peak_that_the_body_does_not_bear() {
     for wanted in [1e-6, 1e-3, 0.03, 0.3, 3.0] {
         let (calls, answer) = evaluations(body(), Control::PeakPressure(wanted));
         match answer {
-            Err(ContactError::PeakTooHigh { half_width, found, .. }) => {
+            Err(ContactError::Solve(SolveError::PeakTooHigh { half_width, found, .. })) => {
                 assert!((half_width / most - 1.0).abs() < 1e-6, "{wanted}: L = {half_width:e}");
                 peaks.push(found);
             }
@@ -481,7 +502,7 @@ fn a_peak_that_the_body_does_not_bear() {
 fn a_peak_that_a_flank_does_not_bear() {
     let flank = || -> Profile { Box::new(Involute::new(50.0, 1e-6, [0.0, 0.8]).unwrap()) };
     let (calls, answer) = evaluations(flank(), Control::PeakPressure(0.3));
-    let Err(ContactError::PeakTooHigh { half_width, found, .. }) = answer else {
+    let Err(ContactError::Solve(SolveError::PeakTooHigh { half_width, found, .. })) = answer else {
         panic!("{answer:?}")
     };
     // The flank begins 25e-12 from the point of touch, with a radius of 5e-5.

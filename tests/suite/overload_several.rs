@@ -3,7 +3,7 @@
 
 use crate::common;
 use common::{Counting, Profile, Shares, graph};
-use linecontact::{Contact, ContactError, Control, Edge, Flat};
+use linecontact::{Contact, ContactError, Control, Edge, Flat, SolveError};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -15,9 +15,14 @@ fn quartic(from: f64, to: f64) -> Profile {
 /// Returns load, half-width, peak and end from the error of an overload.
 fn bears(contact: &Contact<f64>, load: f64) -> [f64; 4] {
     match contact.solve(Control::Load(load)).map(|solution| solution.intervals().to_vec()) {
-        Err(ContactError::DomainTooShort {
-            carried, half_width, peak, end, load: asked, ..
-        }) => {
+        Err(ContactError::Solve(SolveError::DomainTooShort {
+            carried,
+            half_width,
+            peak,
+            end,
+            load: asked,
+            ..
+        })) => {
             assert_eq!(asked, load);
             [carried, half_width, peak, end]
         }
@@ -172,11 +177,13 @@ fn random_bodies_bear_what_the_error_says() {
             None => contact.solve(Control::Load(load)),
         };
         let carried = match solve(asked).map(|_| ()) {
-            Err(ContactError::DomainTooShort { carried, end, .. }) if end == from || end == to => {
+            Err(ContactError::Solve(SolveError::DomainTooShort { carried, end, .. }))
+                if end == from || end == to =>
+            {
                 carried
             }
             // The slopes show that an end is the lowest place.
-            Err(ContactError::NoFirstContact { .. }) if at.is_none() => 0.0,
+            Err(ContactError::Solve(SolveError::NoFirstContact { .. })) if at.is_none() => 0.0,
             other => {
                 faults.push(format!("{i}: {other:?}"));
                 continue;
@@ -208,10 +215,10 @@ fn random_bodies_bear_what_the_error_says() {
         touching += usize::from((on.left - from).min(to - on.right) > 0.01);
         several += usize::from(under.intervals().len() > 1);
         match solve(carried * 1.001).map(|_| ()) {
-            Err(ContactError::DomainTooShort { carried: again, .. })
+            Err(ContactError::Solve(SolveError::DomainTooShort { carried: again, .. }))
                 if (again / carried - 1.0).abs() < 1e-9 => {}
             // At that place at most its capacity.
-            Err(ContactError::TiltNotFound { .. }) if at.is_some() => {}
+            Err(ContactError::Solve(SolveError::TiltNotFound { .. })) if at.is_some() => {}
             other => faults.push(format!("{i}: more than {carried}: {other:?}")),
         }
     }

@@ -8,7 +8,7 @@ use linecontact::quadrature::{Integrator, LoadCase, Moments, Quadrature};
 use linecontact::reference::{ClosedForm, Exponential, body};
 use linecontact::{
     Contact, ContactError, Control, Cost, Edge, Ends, Estimate, Flat, Gap, Interval, Midpoint,
-    Panels, Solver,
+    Panels, SolveError, Solver,
 };
 use std::any::Any;
 use std::f64::consts::PI;
@@ -98,9 +98,15 @@ impl Integrator<f64> for Sums {
         let (range, mut panels) = (gap.range(), Panels::FULL.integrator()?);
         for x in [range[0] - 1.0, range[1] + 0.5, f64::NAN] {
             let beyond = Sampler::default().slope(gap, x).unwrap_err();
-            assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
+            assert!(
+                matches!(beyond, ContactError::Solve(SolveError::OutsideBodies { .. })),
+                "{beyond}"
+            );
             let beyond = panels.moments(gap, Interval { left: x, right: x + 9.0 }).unwrap_err();
-            assert!(matches!(beyond, ContactError::OutsideBodies { .. }), "{beyond}");
+            assert!(
+                matches!(beyond, ContactError::Solve(SolveError::OutsideBodies { .. })),
+                "{beyond}"
+            );
         }
         // An integrator that was not prepared has no samples.
         let load_case = LoadCase { kappa: 1.0, load: 1.0, free: Ends::both(true) };

@@ -6,6 +6,7 @@ use linecontact::quadrature::Quadrature;
 use linecontact::search::{Bracket, Brent, LimitSearch, Root, SearchError, StoppingCriteria};
 use linecontact::{
     Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval, Midpoint, Panels,
+    SolveError,
 };
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -50,7 +51,10 @@ fn a_sloppy_inversion_shows() {
         assert!(
             matches!(
                 error,
-                ContactError::Inversion { source: SearchError::LeftBracket { .. }, .. }
+                ContactError::Solve(SolveError::Inversion {
+                    source: SearchError::LeftBracket { .. },
+                    ..
+                })
             ),
             "{error}"
         );
@@ -72,7 +76,8 @@ fn an_inversion_that_stops_where_it_begins_is_an_error() {
         let contact = Contact::new(&Flat, &body).unwrap().inversion(&idle).quadrature(quadrature);
         let contact = contact.start(Interval { left: -0.9, right: 0.9 });
         let error = contact.solve(Control::Load(0.3)).map(|_| ()).unwrap_err();
-        let ContactError::Inversion { body: Body::Upper, x, source } = error else {
+        let ContactError::Solve(SolveError::Inversion { body: Body::Upper, x, source }) = error
+        else {
             panic!("{error}")
         };
         let SearchError::NotConverged { x: k, residual } = source else { panic!("{source}") };

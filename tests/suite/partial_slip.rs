@@ -7,8 +7,8 @@ use crate::integrals::{integral, principal, strength};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::reference::{ClosedForm, RoundedPunch, body};
 use linecontact::{
-    Body, Contact, ContactError, Control, Edge, Flat, Material, PartialSlip, PlaneState, Shear,
-    Solver,
+    Body, Contact, ContactError, Control, Edge, Flat, InputError, Material, PartialSlip,
+    PlaneState, Shear, SolveError, Solver,
 };
 use std::f64::consts::PI;
 
@@ -245,35 +245,47 @@ fn what_does_not_slip_in_part_is_refused() {
     let error = |shear| contact.partial_slip(load, shear).map(|_| ()).unwrap_err();
     for friction in [0.0, -0.3, f64::NAN, f64::INFINITY] {
         let error = error(Shear { friction, force: 0.01, tension: 0.0 });
-        assert!(matches!(error, ContactError::InvalidSlipFriction { .. }), "{error}");
+        assert!(
+            matches!(error, ContactError::Input(InputError::InvalidSlipFriction { .. })),
+            "{error}"
+        );
     }
     for wrong in [f64::NAN, f64::INFINITY] {
         assert!(matches!(
             error(shear(wrong, 0.0)),
-            ContactError::InvalidShear { quantity: "force", .. }
+            ContactError::Input(InputError::InvalidShear { quantity: "force", .. })
         ));
         assert!(matches!(
             error(shear(0.01, wrong)),
-            ContactError::InvalidShear { quantity: "tension", .. }
+            ContactError::Input(InputError::InvalidShear { quantity: "tension", .. })
         ));
     }
     for force in [0.041, -0.0401, 1e9] {
         let error = error(shear(force, 0.0));
-        assert!(matches!(error, ContactError::SlipsEverywhere { .. }), "{force}: {error}");
+        assert!(
+            matches!(error, ContactError::Solve(SolveError::SlipsEverywhere { .. })),
+            "{force}: {error}"
+        );
     }
     // The difference would have no digits left.
     for force in [1e-14, -1e-300] {
         let error = error(shear(force, 0.0));
-        assert!(matches!(error, ContactError::SticksEverywhere { .. }), "{force}: {error}");
+        assert!(
+            matches!(error, ContactError::Solve(SolveError::SticksEverywhere { .. })),
+            "{force}: {error}"
+        );
     }
     // With the tension alone, or with too much of it, slip has to reverse.
     for (force, tension) in [(0.0, 0.02), (0.01, 0.2), (-0.01, -0.2)] {
         let error = error(shear(force, tension));
-        assert!(matches!(error, ContactError::ReversedSlip { .. }), "{force} {tension}: {error}");
+        assert!(
+            matches!(error, ContactError::Solve(SolveError::ReversedSlip { .. })),
+            "{force} {tension}: {error}"
+        );
     }
     // Off the bodies altogether.
     let error = error(shear(0.01, 1e3));
-    assert!(matches!(error, ContactError::SlipNotSupported { .. }), "{error}");
+    assert!(matches!(error, ContactError::Input(InputError::SlipNotSupported { .. })), "{error}");
     let materials = |lower, upper| {
         let contact = scene.clone().materials(lower, upper, PlaneState::Strain);
         contact.partial_slip(load, shear(0.01, 0.0)).map(|_| ())
@@ -284,7 +296,7 @@ fn what_does_not_slip_in_part_is_refused() {
     assert!(materials(Material::Rigid, rubber).is_ok());
     match materials(steel, soft) {
         // 1/2 ((1 - 2ν₁)/G₁ - (1 - 2ν₂)/G₂)/((1 - ν₁)/G₁ + (1 - ν₂)/G₂)
-        Err(ContactError::UnlikeBodies { beta }) => {
+        Err(ContactError::Input(InputError::UnlikeBodies { beta })) => {
             let shear = [2.1 / 2.6, 1.0 / 2.6];
             let exact =
                 0.5 * 0.4 * (1.0 / shear[0] - 1.0 / shear[1]) / (0.7 / shear[0] + 0.7 / shear[1]);
@@ -294,5 +306,5 @@ fn what_does_not_slip_in_part_is_refused() {
     }
     let adhesive = contact.clone().edges(Edge::Adhesive(0.01), Edge::Adhesive(0.01));
     let error = adhesive.partial_slip(load, shear(0.01, 0.0)).map(|_| ()).unwrap_err();
-    assert!(matches!(error, ContactError::SlipNotSupported { .. }), "{error}");
+    assert!(matches!(error, ContactError::Input(InputError::SlipNotSupported { .. })), "{error}");
 }

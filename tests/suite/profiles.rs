@@ -6,8 +6,8 @@ use crate::common;
 use common::{graph, paper, parabola};
 use linecontact::reference::{ClosedForm, Hertz, Wedge};
 use linecontact::{
-    Contact, ContactError, Control, Convexity, Curve, CurvePoint, Flat, ParametricProfile, Piece,
-    Piecewise, PiecewiseError, ProfileError,
+    Contact, ContactError, Control, Convexity, Curve, CurvePoint, Flat, InputError,
+    ParametricProfile, Piece, Piecewise, PiecewiseError, ProfileError,
 };
 use std::sync::Arc;
 
@@ -424,5 +424,8 @@ fn a_hole_between_two_pieces_is_no_body() {
     let contact = Contact::new(&Flat, &body).unwrap();
     let error = contact.solve(Control::Load(0.2)).unwrap_err();
     let wanted = ProfileError::Pieces { count: 2, index: 1 };
-    assert!(matches!(&error, ContactError::Profile { source, .. } if *source == wanted), "{error}");
+    assert!(
+        matches!(&error, ContactError::Input(InputError::Profile { source, .. }) if *source == wanted),
+        "{error}"
+    );
 }

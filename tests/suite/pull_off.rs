@@ -4,7 +4,7 @@
 use crate::edges::{KAPPA, Quadratic};
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use linecontact::{Contact, ContactError, Control, Edge, Flat, Solver};
+use linecontact::{Contact, ContactError, Control, Edge, Flat, SolveError, Solver};
 
 /// Parabola with its pull-off load. dF/dL = 0: with two adhesive edges L³ = R² w/κ, with one L³ =
 /// R² w/(4 κ); F = -3 κ L²/(2 R).
@@ -77,7 +77,7 @@ fn beyond_pull_off_the_error_says_so() {
     for case in PullOff::cases() {
         for part in [1.0001, 1.01, 2.0, 100.0, 1e6] {
             let error = case.under(part).unwrap_err();
-            let ContactError::PullOff { load, least } = error else {
+            let ContactError::Solve(SolveError::PullOff { load, least }) = error else {
                 panic!("{:?} {part}: {error}", case.edges)
             };
             assert_relative_eq!(load, part * case.load(), epsilon = 0.0, max_relative = 1e-15);
@@ -108,7 +108,10 @@ fn a_pull_may_fit_bodies_too_short_for_no_load() {
         }
         for wanted in [0.0, 0.5 * load(1.0), load(1.001)] {
             let error: ContactError<f64> = solve(wanted).unwrap_err();
-            let ContactError::DomainTooShort { carried, load: asked, end, .. } = error else {
+            let ContactError::Solve(SolveError::DomainTooShort {
+                carried, load: asked, end, ..
+            }) = error
+            else {
                 panic!("{error}")
             };
             assert_eq!((asked, end.abs()), (wanted, 1.0));
@@ -117,7 +120,9 @@ fn a_pull_may_fit_bodies_too_short_for_no_load() {
         for part in [1.001, 3.0, 1e3] {
             let pull_off = load(narrowest);
             let error: ContactError<f64> = solve(part * pull_off).unwrap_err();
-            let ContactError::PullOff { least, .. } = error else { panic!("{error}") };
+            let ContactError::Solve(SolveError::PullOff { least, .. }) = error else {
+                panic!("{error}")
+            };
             assert!(least > pull_off && least <= pull_off * (1.0 - 2e-3), "{least} {pull_off}");
         }
     }
@@ -125,7 +130,7 @@ fn a_pull_may_fit_bodies_too_short_for_no_load() {
     let glued = contact.edges(Edge::Adhesive(2.0 * KAPPA), Edge::Adhesive(2.0 * KAPPA));
     for load in [-1.0, -2.0, -10.0] {
         let error = glued.solve(Control::Load(load)).unwrap_err();
-        assert!(matches!(error, ContactError::DomainTooShort { .. }), "{error}");
+        assert!(matches!(error, ContactError::Solve(SolveError::DomainTooShort { .. })), "{error}");
     }
 }
 
@@ -159,6 +164,6 @@ fn a_pull_too_far_is_the_same_error_after_a_contact() {
     let mut solver = Solver::new();
     solver.solve(&contact, Control::Load(0.5 * case.load())).unwrap();
     let error = solver.solve(&contact, Control::Load(1.5 * case.load())).unwrap_err();
-    let ContactError::PullOff { least, .. } = error else { panic!("{error}") };
+    let ContactError::Solve(SolveError::PullOff { least, .. }) = error else { panic!("{error}") };
     assert!(least > case.load() && least <= case.load() * (1.0 - 2e-3), "{least}");
 }

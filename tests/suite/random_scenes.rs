@@ -11,8 +11,8 @@ use crate::common::NanSafe;
 use crate::common::{Profile, intervals};
 
 use linecontact::{
-    Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, Flat, Interval, Piecewise,
-    Solution,
+    Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, EvaluationError, Flat, Interval,
+    Piecewise, Solution, SolveError,
 };
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -260,7 +260,7 @@ fn outcome(scene: &Scene, oracle: &Oracle) -> Outcome {
     let contact = contact.edges(edge(0), edge(1));
     let too_short = !cornered && reached != [false; 2];
     match contact.solve(Control::Load(scene.load)) {
-        Err(ContactError::DomainTooShort { .. }) if too_short => Outcome::Solved,
+        Err(ContactError::Solve(SolveError::DomainTooShort { .. })) if too_short => Outcome::Solved,
         Err(error) => Outcome::Refused(error.to_string()),
         Ok(_) if too_short => Outcome::Wrong("it is wider than the bodies".to_owned()),
         Ok(solution) => match fault(scene, oracle, &solution) {
@@ -304,7 +304,7 @@ fn fault(
     let pressure = solution.pressure()?;
     let at = |x: f64| match pressure.estimate(x, &mut Cost::default()) {
         // At a kink the pressure is infinite.
-        Err(ContactError::Singular { .. }) => Ok(f64::INFINITY),
+        Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => Ok(f64::INFINITY),
         other => other.map(|estimate| estimate.value),
     };
     // Place, pressure and integration weight.

@@ -2,7 +2,8 @@
 
 use crate::random_scenes::Dice;
 use linecontact::{
-    Contact, ContactError, Control, Convexity, Curve, CurvePoint, Flat, ParametricProfile, Solver,
+    Contact, ContactError, Control, Convexity, Curve, CurvePoint, Flat, InputError,
+    ParametricProfile, SolveError, Solver,
 };
 
 /// Returns the gap outside Hertz's contact under load, over the square of the half-width, at ξ
@@ -165,7 +166,7 @@ fn lengths_that_are_none_are_refused() {
     for length in [0.0, -1e-3, f64::NAN, f64::INFINITY, 1e-17] {
         let found = contact.clone().resolution(length).solve(Control::Load(0.02));
         let error = found.map(|_| ()).unwrap_err();
-        let ContactError::InvalidResolution { resolution, least } = error else {
+        let ContactError::Input(InputError::InvalidResolution { resolution, least }) = error else {
             panic!("{error}")
         };
         assert_eq!(resolution.to_bits(), length.to_bits());
@@ -173,5 +174,5 @@ fn lengths_that_are_none_are_refused() {
     }
     // More points than the budget allows.
     let error = contact.resolution(1e-9).solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
-    assert!(matches!(error, ContactError::BudgetSpent { .. }), "{error}");
+    assert!(matches!(error, ContactError::Solve(SolveError::BudgetSpent { .. })), "{error}");
 }

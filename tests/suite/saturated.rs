@@ -3,7 +3,9 @@
 
 use crate::common::{NanSafe, circle};
 use linecontact::profile::Ellipse;
-use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, Flat, ProfileError};
+use linecontact::{
+    Contact, ContactError, Control, Curve, CurvePoint, Flat, InputError, ProfileError,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 #[test]
@@ -12,7 +14,10 @@ fn a_closed_curve_turns_back_at_once() {
         for end in [PI - 2.65e-6, 2.0, 3.0, 3.1, PI, 3.125] {
             let body = circle(-end, end, sign);
             let error = Contact::new(&Flat, &*body).map(|_| ()).unwrap_err();
-            let ContactError::Profile { source: ProfileError::TurnsBack { k, x, .. }, .. } = error
+            let ContactError::Input(InputError::Profile {
+                source: ProfileError::TurnsBack { k, x, .. },
+                ..
+            }) = error
             else {
                 panic!("{error}")
             };
@@ -47,7 +52,11 @@ fn the_first_turn_is_named() {
         let error = Contact::new(&Flat, &body)
             .and_then(|contact| contact.solve(Control::Load(0.01)).map(|_| ()))
             .unwrap_err();
-        let ContactError::Profile { source: ProfileError::TurnsBack { k, .. }, .. } = error else {
+        let ContactError::Input(InputError::Profile {
+            source: ProfileError::TurnsBack { k, .. },
+            ..
+        }) = error
+        else {
             panic!("{end}: {error}")
         };
         assert!((k.abs() - FRAC_PI_2).abs() < 1e-12, "{end}: {k}");

@@ -8,8 +8,8 @@ use crate::forms::KAPPA;
 
 use linecontact::reference::{ClosedForm, Hertz, PolynomialMap, Quartic, Wedge, body};
 use linecontact::{
-    Contact, ContactError, ContactRegion, Control, Cost, Edge, Ends, Flat, Interval, Real,
-    Solution, Solver,
+    Contact, ContactError, ContactRegion, Control, Cost, Edge, Ends, EvaluationError, Flat,
+    Interval, Real, Solution, SolveError, Solver,
 };
 use std::f64::consts::PI;
 
@@ -176,7 +176,11 @@ fn what_each_contact_bears() {
         assert!((solution.mean_pressure() * widths / load - 1.0).abs() < 1e-14, "{name}");
         match solution.peak() {
             Ok(peak) => assert_eq!(peak.pressure, highest, "{name}"),
-            Err(error) => assert_eq!(error, ContactError::Singular { x: -1.0 }, "{name}"),
+            Err(error) => assert_eq!(
+                error,
+                ContactError::Evaluation(EvaluationError::Singular { x: -1.0 }),
+                "{name}"
+            ),
         }
     }
 }
@@ -218,7 +222,10 @@ fn the_singularity_of_a_corner() {
     let ((one, s1), (two, s2)) = (at(1e-4), at(4e-4));
     let limit = (one * s2 * s2 - two * s1 * s1) / (s2 * s2 - s1 * s1);
     assert!((limit / strength - 1.0).abs() < 1e-6, "{limit}, {strength}");
-    assert!(matches!(pressure.at(-1.0), Err(ContactError::Singular { x: -1.0 })));
+    assert!(matches!(
+        pressure.at(-1.0),
+        Err(ContactError::Evaluation(EvaluationError::Singular { x: -1.0 }))
+    ));
 }
 
 type Map<T> = PolynomialMap<T, Hertz<T>>;
@@ -318,7 +325,11 @@ fn rates_of_all_limits() {
             });
             total += PI / 200.0 * terms.sum::<f64>();
             for x in [on.left, on.right] {
-                assert_eq!(rates.pressure(x), Err(ContactError::Singular { x }), "{name}");
+                assert_eq!(
+                    rates.pressure(x),
+                    Err(ContactError::Evaluation(EvaluationError::Singular { x })),
+                    "{name}"
+                );
             }
         }
         worst[2] = (total - 1.0).abs();
@@ -329,7 +340,10 @@ fn rates_of_all_limits() {
         }
         assert_eq!(rates.pressure(-9.0), Ok(0.0));
         assert_eq!(rates.pressure(9.0), Ok(0.0));
-        assert!(matches!(rates.pressure(f64::NAN), Err(ContactError::InvalidPosition { .. })));
+        assert!(matches!(
+            rates.pressure(f64::NAN),
+            Err(ContactError::Evaluation(EvaluationError::InvalidPosition { .. }))
+        ));
     }
 }
 
@@ -413,7 +427,11 @@ fn the_gap_between_contacts_and_beside_them() {
                 assert_eq!(solution.gap_slope(x), Ok(0.0));
             }
             let x = on.centre();
-            let inside = ContactError::InvalidPosition { x, inside: false, interval: *on };
+            let inside = ContactError::Evaluation(EvaluationError::InvalidPosition {
+                x,
+                inside: false,
+                interval: *on,
+            });
             assert_eq!(solution.gap_at(x), Err(inside.clone()));
             assert_eq!(solution.gap_slope(x), Err(inside));
         }
@@ -443,7 +461,10 @@ fn the_equation_is_met_in_each_contact() {
             for x in [pair[0].right, 0.5 * (pair[0].right + pair[1].left), pair[1].left] {
                 let refused = matches!(
                     solution.residual(x),
-                    Err(ContactError::InvalidPosition { inside: true, .. })
+                    Err(ContactError::Evaluation(EvaluationError::InvalidPosition {
+                        inside: true,
+                        ..
+                    }))
                 );
                 assert!(refused, "{}: {x}", scene.name);
             }
@@ -528,7 +549,10 @@ fn pressures_at_limits_and_in_gaps() {
                 let inward = if x == on.left { 1e-12 } else { -1e-12 } * on.half_width();
                 match pressure.at(x + inward) {
                     Ok(p) => assert!(p > 0.0 && p < 1e-4 * solution.mean_pressure()),
-                    Err(error) => assert!(matches!(error, ContactError::Unresolved { .. })),
+                    Err(error) => assert!(matches!(
+                        error,
+                        ContactError::Evaluation(EvaluationError::Unresolved { .. })
+                    )),
                 }
             }
         }
@@ -556,7 +580,8 @@ fn pressures_at_limits_and_in_gaps() {
             assert!((got - want[i]).abs() <= 1e-13 * want[i], "{}: P({})", scene.name, x[i]);
         }
         for outside in [9.0, -9.0, f64::NAN, f64::INFINITY] {
-            let refused = |error| matches!(error, ContactError::OutsideBodies { .. });
+            let refused =
+                |error| matches!(error, ContactError::Solve(SolveError::OutsideBodies { .. }));
             assert!(refused(pressure.at(outside).unwrap_err()));
             let mut out = [0.0; 2];
             let mixed = [contacts[0].centre(), outside];

@@ -12,7 +12,7 @@ use linecontact::reference::{
     ClosedForm, Hertz, PolynomialMap, Quartic, RoundedPunch, UnequalRadii, Wedge, body,
 };
 use linecontact::{
-    Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, Flat, Interval,
+    Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, Flat, InputError, Interval,
     ParametricProfile, Real, Solution, Solver,
 };
 use std::f64::consts::PI;
@@ -242,7 +242,9 @@ fn heights_that_do_not_go_with_the_slopes() {
             graph(-2.0, 2.0, move |x| [share * x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
         let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(1.0);
         let error = contact.solve(Control::Load(1.0)).map(|_| ()).unwrap_err();
-        let ContactError::InconsistentHeights { by_heights, by_slopes, .. } = error else {
+        let ContactError::Input(InputError::InconsistentHeights { by_heights, by_slopes, .. }) =
+            error
+        else {
             panic!("{share}: {error}")
         };
         assert!((by_heights / by_slopes / share - 1.0).abs() < 1e-9, "{by_heights} {by_slopes}");

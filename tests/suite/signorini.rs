@@ -19,7 +19,7 @@ use linecontact::profile::{Fit, Spline};
 use linecontact::reference::{ClosedForm, Quartic};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval, Material, ParametricProfile,
-    Piecewise, PlaneState, Reference, References, Solution, Solver,
+    Piecewise, PlaneState, Reference, References, Solution, SolveError, Solver,
 };
 use std::f64::consts::{LN_2, PI};
 
@@ -343,7 +343,7 @@ impl Tally {
         self.slowest = self.slowest.max(started.elapsed().as_secs_f64());
         let solution = match solved {
             Ok(solution) => solution,
-            Err(error @ ContactError::DomainTooShort { .. }) => {
+            Err(error @ ContactError::Solve(SolveError::DomainTooShort { .. })) => {
                 self.too_short += 1;
                 let [from, to] = [bodies.places[0], *bodies.places.last().unwrap()];
                 match wide() {
@@ -744,7 +744,7 @@ fn wavy_bodies_come_nearer_by_what_is_defined() {
             Contact::new(&Flat, &body).unwrap().materials(material, other, PlaneState::Strain);
         let solution = match contact.solve(Control::Load(load)) {
             Ok(solution) => solution,
-            Err(ContactError::DomainTooShort { .. }) => continue,
+            Err(ContactError::Solve(SolveError::DomainTooShort { .. })) => continue,
             Err(error) => {
                 refused.push(format!("{seed} {scene:?}: {error}"));
                 continue;

@@ -4,8 +4,8 @@
 use crate::common::{Profile, graph, worst};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::{
-    Contact, ContactError, Control, Edge, Flat, Material, PlaneState, Reference, References,
-    SpringTable,
+    Contact, ContactError, Control, Edge, EvaluationError, Flat, InputError, Material, PlaneState,
+    Reference, References, SolveError, SpringTable,
 };
 
 const STEEL: Material<f64> = Material::Elastic { youngs_modulus: 2.1, poisson_ratio: 0.3 };
@@ -77,16 +77,28 @@ fn what_makes_no_table_is_refused() {
     let table = |loads, tolerance| SpringTable::new(&contact, &REFERENCES, loads, tolerance);
     for loads in [[0.0, 1.0], [-1.0, 1.0], [0.1, 0.1], [0.2, 0.1], [f64::NAN, 1.0], [0.1, f64::NAN]]
     {
-        assert!(matches!(table(loads, 1e-3), Err(ContactError::InvalidLoad { .. })), "{loads:?}");
+        assert!(
+            matches!(table(loads, 1e-3), Err(ContactError::Input(InputError::InvalidLoad { .. }))),
+            "{loads:?}"
+        );
     }
     for tolerance in [0.0, -1.0, 1.0, f64::NAN] {
         let error = table([0.01, 0.1], tolerance).unwrap_err();
-        assert!(matches!(error, ContactError::InvalidTolerance { .. }), "{tolerance}");
+        assert!(
+            matches!(error, ContactError::Input(InputError::InvalidTolerance { .. })),
+            "{tolerance}"
+        );
     }
-    assert!(matches!(table([0.01, 1e9], 1e-3), Err(ContactError::DomainTooShort { .. })));
+    assert!(matches!(
+        table([0.01, 1e9], 1e-3),
+        Err(ContactError::Solve(SolveError::DomainTooShort { .. }))
+    ));
     let table = table([0.01, 0.1], 1e-3).unwrap();
     for approach in [0.0, 1.0, f64::NAN] {
-        assert!(matches!(table.at(approach), Err(ContactError::OutsideTable { .. })));
+        assert!(matches!(
+            table.at(approach),
+            Err(ContactError::Evaluation(EvaluationError::OutsideTable { .. }))
+        ));
     }
     let ends: Vec<f64> = table.points().map(|point| point.approach).collect();
     assert!((table.at(ends[0]).unwrap().load / 0.01 - 1.0).abs() < 1e-14);

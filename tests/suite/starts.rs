@@ -5,7 +5,7 @@
 
 use crate::common::{self, Profile, assert_close, graph, on_flat, power, reference};
 use linecontact::search::{Brent, Newton};
-use linecontact::{Contact, ContactError, Control, Edge, Flat, Interval};
+use linecontact::{Contact, ContactError, Control, Edge, Flat, Interval, SolveError};
 use std::f64::consts::PI;
 
 struct Scene {
@@ -147,7 +147,9 @@ fn the_contact_found_grows_with_its_load() {
                     assert!(off < 1e-12, "{left:?} {right:?} {load} {start:?}: {off}");
                     solved += 1;
                 }
-                Err(ContactError::NoFirstContact { .. } | ContactError::NoEquilibrium { .. }) => {
+                Err(ContactError::Solve(
+                    SolveError::NoFirstContact { .. } | SolveError::NoEquilibrium { .. },
+                )) => {
                     assert!(!leads, "{left:?} {right:?} {load} {start:?}");
                     refused += 1;
                 }

@@ -7,7 +7,8 @@ use approx::assert_relative_eq;
 use linecontact::profile::{Parabola, wedge};
 use linecontact::search::Brent;
 use linecontact::{
-    Contact, ContactError, Control, Edge, Ends, Flat, Interval, Midpoint, Solution, Solver,
+    Contact, ContactError, Control, Edge, Ends, Flat, InputError, Interval, Midpoint, Solution,
+    SolveError, Solver,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -334,7 +335,10 @@ fn what_cannot_be() {
     let given = |load, at| Control::CentreOfPressure { load, at };
     for load in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         for control in [given(load, 0.1), moment(load, 0.1)] {
-            assert!(matches!(error(&contact, control), ContactError::InvalidLoad { .. }));
+            assert!(matches!(
+                error(&contact, control),
+                ContactError::Input(InputError::InvalidLoad { .. })
+            ));
         }
     }
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -343,14 +347,26 @@ fn what_cannot_be() {
             moment(0.1, bad),
             Control::Moment { load: 0.1, moment: 0.1, about: bad },
         ] {
-            assert!(matches!(error(&contact, control), ContactError::InvalidMoment { .. }));
+            assert!(matches!(
+                error(&contact, control),
+                ContactError::Input(InputError::InvalidMoment { .. })
+            ));
         }
     }
     // Beyond the body, and so close to its end that there is no space for the contact.
-    assert!(matches!(error(&contact, given(0.1, 1.1)), ContactError::OutsideBodies { .. }));
+    assert!(matches!(
+        error(&contact, given(0.1, 1.1)),
+        ContactError::Solve(SolveError::OutsideBodies { .. })
+    ));
     for (load, at) in [(0.1, 0.9), (0.02, -0.95), (0.4, 0.5)] {
         match error(&contact, given(load, at)) {
-            ContactError::TiltNotFound { load: asked, at: place, reached, tilt, ends } => {
+            ContactError::Solve(SolveError::TiltNotFound {
+                load: asked,
+                at: place,
+                reached,
+                tilt,
+                ends,
+            }) => {
                 assert_eq!((asked, place, ends), (load, at, Ends { left: -1.0, right: 1.0 }));
                 // The contact of half-width L = sqrt(2 F) can be moved up to the end.
                 let most = 1.0 - (2.0 * load).sqrt();
@@ -361,9 +377,15 @@ fn what_cannot_be() {
         }
     }
     // More than the capacity at any tilt.
-    assert!(matches!(error(&contact, given(2.0, 0.0)), ContactError::DomainTooShort { .. }));
+    assert!(matches!(
+        error(&contact, given(2.0, 0.0)),
+        ContactError::Solve(SolveError::DomainTooShort { .. })
+    ));
     let no_tilt = |contact: Contact<f64>| {
-        assert!(matches!(error(&contact, given(0.1, 0.1)), ContactError::TiltNotSupported { .. }));
+        assert!(matches!(
+            error(&contact, given(0.1, 0.1)),
+            ContactError::Input(InputError::TiltNotSupported { .. })
+        ));
     };
     no_tilt(contact.clone().edges(Edge::Adhesive(0.1), Edge::Free));
     no_tilt(contact.clone().limit_search(&Brent::DEFAULT));
@@ -377,10 +399,16 @@ fn what_cannot_be() {
         tolerance_b: 1e-9,
     };
     let by_pressure = contact.clone().edge_pressure(wanted);
-    assert!(matches!(error(&by_pressure, given(0.1, 0.1)), ContactError::EdgePressureLoad));
+    assert!(matches!(
+        error(&by_pressure, given(0.1, 0.1)),
+        ContactError::Input(InputError::EdgePressureLoad)
+    ));
     // At a corner that would be in tension.
     let held = contact.edges(Edge::Fixed(-0.5), Edge::Free);
-    assert!(matches!(error(&held, given(0.1, 0.4)), ContactError::LiftsOff { .. }));
+    assert!(matches!(
+        error(&held, given(0.1, 0.4)),
+        ContactError::Solve(SolveError::LiftsOff { .. })
+    ));
 }
 
 #[test]

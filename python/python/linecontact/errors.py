@@ -75,21 +75,6 @@ class MissingDerivativesError(InputError, TypeError):
         )
 
 
-class CancelledError(SolveError):
-    """The solve was ended from outside. (Ctrl-C raises `KeyboardInterrupt`.)
-
-    Attributes
-    ----------
-    evaluations : int
-        Evaluations of the curves by then.
-    last : tuple[float, float]
-        The span of `x` sampled last.
-    """
-
-    evaluations: int
-    last: tuple[float, float]
-
-
 class ProfileError(InputError):
     """The profile of a body is faulty.
 
@@ -118,39 +103,6 @@ class NoCommonRangeError(InputError):
 
     lower: tuple[float, float]
     upper: tuple[float, float]
-
-
-class OutsideBodiesError(SolveError):
-    """`x` is beyond one of the bodies, or NaN.
-
-    Attributes
-    ----------
-    x : float
-        Abscissa asked for.
-    range : tuple[float, float]
-        The range of `x` that both bodies cover.
-    """
-
-    x: float
-    range: tuple[float, float]
-
-
-class InversionError(SolveError):
-    """`X(k) = x` could not be inverted.
-
-    Attributes
-    ----------
-    body : str
-        Body with this profile.
-    x : float
-        Abscissa.
-    source : SearchError
-        Error of the search, in terms of `k`.
-    """
-
-    body: str
-    x: float
-    source: SearchError
 
 
 class InvalidLoadError(InputError):
@@ -220,6 +172,309 @@ class InvalidEdgePressureError(InputError):
 
     name: str
     value: float
+
+
+class InvalidSegmentsError(InputError):
+    """The number of segments is zero, or there are more points than can be counted.
+
+    Attributes
+    ----------
+    segments : int
+        Number of segments, N.
+    extrapolations : int
+        Number of extrapolations, ET.
+    """
+
+    segments: int
+    extrapolations: int
+
+
+class InconsistentHeightsError(InputError):
+    """A body's Y does not match its Y', so that heights and slopes of the gap contradict each
+    other.
+
+    Y has a step, or a derivative is wrong: `check_derivatives` tells for which body.
+
+    Attributes
+    ----------
+    between : tuple[float, float]
+        Two abscissae.
+    by_heights : float
+        Rise of `Y₂ - Y₁` from the first abscissa to the second.
+    by_slopes : float
+        `∫ (Y₂'/X₂' - Y₁'/X₁') dx` from the first abscissa to the second.
+    """
+
+    between: tuple[float, float]
+    by_heights: float
+    by_slopes: float
+
+
+class NotConvexError(InputError):
+    """The bodies declare that they bulge towards each other, but the slope of the gap falls.
+
+    Attributes
+    ----------
+    between : tuple[float, float]
+        Two abscissae, the left one first; equal where the slope jumps.
+    slopes : tuple[float, float]
+        Slopes of the gap at these abscissae, before the bodies turn: ratios of lengths.
+    """
+
+    between: tuple[float, float]
+    slopes: tuple[float, float]
+
+
+class InvalidToleranceError(InputError):
+    """The tolerance of the panels is negative, one or more, or NaN.
+
+    Attributes
+    ----------
+    tolerance : float
+        The tolerance as given.
+    """
+
+    tolerance: float
+
+
+class InvalidResolutionError(InputError):
+    """The resolution is not a length, or is lost in the rounding of x.
+
+    Attributes
+    ----------
+    resolution : float
+        The resolution as given: a length.
+    least : float
+        Least length that the rounding of x in the contact allows; zero where no contact was found
+        yet.
+    """
+
+    resolution: float
+    least: float
+
+
+class InvalidAdhesionError(InputError):
+    """A work of adhesion is negative or not finite.
+
+    Attributes
+    ----------
+    work : float
+        The work of adhesion as given.
+    """
+
+    work: float
+
+
+class BothLimitsGivenError(InputError):
+    """Both limits are given: then only a load can be asked for.
+
+    Attributes
+    ----------
+    interval : tuple[float, float]
+        The limits.
+    """
+
+    interval: tuple[float, float]
+
+
+class InvalidMomentError(InputError):
+    """A moment, or the place where a load acts, is not finite.
+
+    Attributes
+    ----------
+    value : float
+        The value.
+    """
+
+    value: float
+
+
+class TiltNotSupportedError(InputError):
+    """A moment, or the place where the load acts, was given for bodies that cannot be turned.
+
+    Attributes
+    ----------
+    why : str
+        Reason, for the message.
+    """
+
+    why: str
+
+
+class PeakEdgeError(InputError):
+    """A peak pressure was asked for together with an edge at which the pressure is not bounded.
+
+    Attributes
+    ----------
+    edge : tuple[str, float | None]
+        The edge asked for.
+    """
+
+    edge: tuple[str, float | None]
+
+
+class InvalidPoissonRatioError(InputError):
+    """Poisson's ratio is not one of an isotropic body that contracts when pulled.
+
+    Attributes
+    ----------
+    ratio : float
+        Poisson's ratio as given.
+    """
+
+    ratio: float
+
+
+class InvalidYoungsModulusError(InputError):
+    """Young's modulus is not a positive finite number.
+
+    Attributes
+    ----------
+    body : str
+        Body with this modulus.
+    modulus : float
+        Young's modulus as given.
+    """
+
+    body: str
+    modulus: float
+
+
+class BothRigidError(InputError):
+    """Both bodies are rigid: then there is no pressure."""
+
+
+class NoMaterialsError(InputError):
+    """An approach was asked for without the materials of the bodies: it depends on the deformation
+    of each body, which E* alone does not give."""
+
+
+class InvalidReferenceError(InputError):
+    """The depth, radius or length of a reference is not a positive finite number, or a disc is
+    smaller than the contact.
+
+    Attributes
+    ----------
+    length : float
+        Length as given.
+    """
+
+    length: float
+
+
+class InvalidFrictionError(InputError):
+    """The coefficient of friction is not finite.
+
+    Attributes
+    ----------
+    coefficient : float
+        Coefficient as given.
+    """
+
+    coefficient: float
+
+
+class InvalidSlipFrictionError(InputError):
+    """The coefficient of friction of partial slip is not a positive finite number.
+
+    Attributes
+    ----------
+    friction : float
+        μ as given.
+    """
+
+    friction: float
+
+
+class InvalidShearError(InputError):
+    """The force or the tension of partial slip is not finite.
+
+    Attributes
+    ----------
+    quantity : str
+        Name of the quantity: `force` or `tension`.
+    value : float
+        Value as given.
+    """
+
+    quantity: str
+    value: float
+
+
+class UnlikeBodiesError(InputError):
+    """Friction on bodies of different elasticity changes the pressure.
+
+    Attributes
+    ----------
+    beta : float
+        Dundurs' constant β in plane strain, from -1/2 to 1/2.
+    """
+
+    beta: float
+
+
+class SlipNotSupportedError(InputError):
+    """Partial slip is not known with these conditions.
+
+    Attributes
+    ----------
+    why : str
+        Reason, for the message.
+    """
+
+    why: str
+
+
+class EdgePressureLoadError(InputError):
+    """Edge pressures by the paper's Eq. (6) are given: then only a load can be prescribed."""
+
+
+class CancelledError(SolveError):
+    """The solve was ended from outside. (Ctrl-C raises `KeyboardInterrupt`.)
+
+    Attributes
+    ----------
+    evaluations : int
+        Evaluations of the curves by then.
+    last : tuple[float, float]
+        The span of `x` sampled last.
+    """
+
+    evaluations: int
+    last: tuple[float, float]
+
+
+class OutsideBodiesError(SolveError):
+    """`x` is beyond one of the bodies, or NaN.
+
+    Attributes
+    ----------
+    x : float
+        Abscissa asked for.
+    range : tuple[float, float]
+        The range of `x` that both bodies cover.
+    """
+
+    x: float
+    range: tuple[float, float]
+
+
+class InversionError(SolveError):
+    """`X(k) = x` could not be inverted.
+
+    Attributes
+    ----------
+    body : str
+        Body with this profile.
+    x : float
+        Abscissa.
+    source : SearchError
+        Error of the search, in terms of `k`.
+    """
+
+    body: str
+    x: float
+    source: SearchError
 
 
 class NoFirstContactError(SolveError):
@@ -379,70 +634,6 @@ class EdgePressureNotMetError(SolveError):
     at_b: float
 
 
-class InvalidSegmentsError(InputError):
-    """The number of segments is zero, or there are more points than can be counted.
-
-    Attributes
-    ----------
-    segments : int
-        Number of segments, N.
-    extrapolations : int
-        Number of extrapolations, ET.
-    """
-
-    segments: int
-    extrapolations: int
-
-
-class SingularError(EvaluationError):
-    """The pressure was asked for where it is infinite: at a fixed or adhesive edge, at an edge
-    where Eq. (6) has left a singularity, or where the slope of a body jumps.
-
-    Attributes
-    ----------
-    x : float
-        Abscissa asked for.
-    """
-
-    x: float
-
-
-class InconsistentHeightsError(InputError):
-    """A body's Y does not match its Y', so that heights and slopes of the gap contradict each
-    other.
-
-    Y has a step, or a derivative is wrong: `check_derivatives` tells for which body.
-
-    Attributes
-    ----------
-    between : tuple[float, float]
-        Two abscissae.
-    by_heights : float
-        Rise of `Y₂ - Y₁` from the first abscissa to the second.
-    by_slopes : float
-        `∫ (Y₂'/X₂' - Y₁'/X₁') dx` from the first abscissa to the second.
-    """
-
-    between: tuple[float, float]
-    by_heights: float
-    by_slopes: float
-
-
-class NotConvexError(InputError):
-    """The bodies declare that they bulge towards each other, but the slope of the gap falls.
-
-    Attributes
-    ----------
-    between : tuple[float, float]
-        Two abscissae, the left one first; equal where the slope jumps.
-    slopes : tuple[float, float]
-        Slopes of the gap at these abscissae, before the bodies turn: ratios of lengths.
-    """
-
-    between: tuple[float, float]
-    slopes: tuple[float, float]
-
-
 class TensionError(SolveError):
     """The bodies would have to pull at each other inside the contact: they part there.
 
@@ -564,82 +755,6 @@ class UndecidedError(SolveError):
     samples: int
 
 
-class InvalidToleranceError(InputError):
-    """The tolerance of the panels is negative, one or more, or NaN.
-
-    Attributes
-    ----------
-    tolerance : float
-        The tolerance as given.
-    """
-
-    tolerance: float
-
-
-class InvalidResolutionError(InputError):
-    """The resolution is not a length, or is lost in the rounding of x.
-
-    Attributes
-    ----------
-    resolution : float
-        The resolution as given: a length.
-    least : float
-        Least length that the rounding of x in the contact allows; zero where no contact was found
-        yet.
-    """
-
-    resolution: float
-    least: float
-
-
-class InvalidAdhesionError(InputError):
-    """A work of adhesion is negative or not finite.
-
-    Attributes
-    ----------
-    work : float
-        The work of adhesion as given.
-    """
-
-    work: float
-
-
-class BothLimitsGivenError(InputError):
-    """Both limits are given: then only a load can be asked for.
-
-    Attributes
-    ----------
-    interval : tuple[float, float]
-        The limits.
-    """
-
-    interval: tuple[float, float]
-
-
-class InvalidMomentError(InputError):
-    """A moment, or the place where a load acts, is not finite.
-
-    Attributes
-    ----------
-    value : float
-        The value.
-    """
-
-    value: float
-
-
-class TiltNotSupportedError(InputError):
-    """A moment, or the place where the load acts, was given for bodies that cannot be turned.
-
-    Attributes
-    ----------
-    why : str
-        Reason, for the message.
-    """
-
-    why: str
-
-
 class TiltNotFoundError(SolveError):
     """No tilt makes the load act at the place asked for: the contact would leave the bodies.
 
@@ -677,18 +792,6 @@ class PullOffError(SolveError):
 
     load: float
     least: float
-
-
-class PeakEdgeError(InputError):
-    """A peak pressure was asked for together with an edge at which the pressure is not bounded.
-
-    Attributes
-    ----------
-    edge : tuple[str, float | None]
-        The edge asked for.
-    """
-
-    edge: tuple[str, float | None]
 
 
 class PeakTooHighError(SolveError):
@@ -759,70 +862,6 @@ class InJumpError(SolveError):
     above: float
 
 
-class AboveSurfaceError(EvaluationError):
-    """A point is above the surface, or not finite.
-
-    Attributes
-    ----------
-    x : float
-        Abscissa.
-    depth : float
-        Depth below the surface.
-    """
-
-    x: float
-    depth: float
-
-
-class InvalidPoissonRatioError(InputError):
-    """Poisson's ratio is not one of an isotropic body that contracts when pulled.
-
-    Attributes
-    ----------
-    ratio : float
-        Poisson's ratio as given.
-    """
-
-    ratio: float
-
-
-class InvalidYoungsModulusError(InputError):
-    """Young's modulus is not a positive finite number.
-
-    Attributes
-    ----------
-    body : str
-        Body with this modulus.
-    modulus : float
-        Young's modulus as given.
-    """
-
-    body: str
-    modulus: float
-
-
-class BothRigidError(InputError):
-    """Both bodies are rigid: then there is no pressure."""
-
-
-class NoMaterialsError(InputError):
-    """An approach was asked for without the materials of the bodies: it depends on the deformation
-    of each body, which E* alone does not give."""
-
-
-class InvalidReferenceError(InputError):
-    """The depth, radius or length of a reference is not a positive finite number, or a disc is
-    smaller than the contact.
-
-    Attributes
-    ----------
-    length : float
-        Length as given.
-    """
-
-    length: float
-
-
 class ApproachTooLargeError(SolveError):
     """No contact that stays on the bodies has this approach.
 
@@ -841,21 +880,6 @@ class ApproachTooLargeError(SolveError):
     load: float
 
 
-class OutsideTableError(EvaluationError):
-    """The table of a spring does not cover this approach.
-
-    Attributes
-    ----------
-    approach : float
-        Approach as given.
-    range : tuple[float, float]
-        Least and largest approach in the table.
-    """
-
-    approach: float
-    range: tuple[float, float]
-
-
 class ApproachFallsError(SolveError):
     """The approach to these references does not grow with the load, so that it does not determine
     the load.
@@ -870,45 +894,6 @@ class ApproachFallsError(SolveError):
 
     load: float
     rate: float
-
-
-class InvalidFrictionError(InputError):
-    """The coefficient of friction is not finite.
-
-    Attributes
-    ----------
-    coefficient : float
-        Coefficient as given.
-    """
-
-    coefficient: float
-
-
-class InvalidSlipFrictionError(InputError):
-    """The coefficient of friction of partial slip is not a positive finite number.
-
-    Attributes
-    ----------
-    friction : float
-        μ as given.
-    """
-
-    friction: float
-
-
-class InvalidShearError(InputError):
-    """The force or the tension of partial slip is not finite.
-
-    Attributes
-    ----------
-    quantity : str
-        Name of the quantity: `force` or `tension`.
-    value : float
-        Value as given.
-    """
-
-    quantity: str
-    value: float
 
 
 class SlipsEverywhereError(SolveError):
@@ -962,28 +947,47 @@ class ReversedSlipError(SolveError):
     contact: tuple[float, float]
 
 
-class UnlikeBodiesError(InputError):
-    """Friction on bodies of different elasticity changes the pressure.
+class SingularError(EvaluationError):
+    """The pressure was asked for where it is infinite: at a fixed or adhesive edge, at an edge
+    where Eq. (6) has left a singularity, or where the slope of a body jumps.
 
     Attributes
     ----------
-    beta : float
-        Dundurs' constant β in plane strain, from -1/2 to 1/2.
+    x : float
+        Abscissa asked for.
     """
 
-    beta: float
+    x: float
 
 
-class SlipNotSupportedError(InputError):
-    """Partial slip is not known with these conditions.
+class AboveSurfaceError(EvaluationError):
+    """A point is above the surface, or not finite.
 
     Attributes
     ----------
-    why : str
-        Reason, for the message.
+    x : float
+        Abscissa.
+    depth : float
+        Depth below the surface.
     """
 
-    why: str
+    x: float
+    depth: float
+
+
+class OutsideTableError(EvaluationError):
+    """The table of a spring does not cover this approach.
+
+    Attributes
+    ----------
+    approach : float
+        Approach as given.
+    range : tuple[float, float]
+        Least and largest approach in the table.
+    """
+
+    approach: float
+    range: tuple[float, float]
 
 
 class InvalidPositionError(EvaluationError):
@@ -1014,10 +1018,6 @@ class NoLoadDerivativeError(EvaluationError):
     """
 
     why: str
-
-
-class EdgePressureLoadError(InputError):
-    """Edge pressures by the paper's Eq. (6) are given: then only a load can be prescribed."""
 
 
 class LengthMismatchError(EvaluationError):

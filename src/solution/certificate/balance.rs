@@ -3,7 +3,7 @@
 use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
-use crate::{ContactError, Real, Side};
+use crate::{ContactError, Real, Side, SolveError};
 
 /// Checks with the cells that the limits are where they were found: the remaining Newton steps, as
 /// strengths at the limits, must be within the error estimated by the solver and the uncertainty of
@@ -50,7 +50,7 @@ pub(super) fn balanced<T: Real>(
         let met = strength <= allowed;
         // Of several failing limits, the error names the rightmost.
         if !met {
-            fault = Err(ContactError::Unbalanced { x, strength, allowed });
+            fault = Err(SolveError::Unbalanced { x, strength, allowed }.into());
         }
     }
     fault

@@ -9,7 +9,7 @@ use super::{MAX_EVALUATIONS, undecided};
 use crate::gap::{Cost, Gap, Sampler};
 use crate::numerics::chebyshev::Table;
 use crate::quadrature::panels::{Panel, PanelSet};
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
 
 /// Largest difference of the two slopes, as a share of the largest slope, besides the noise.
 const ALLOWED: f64 = 1e-6;
@@ -129,7 +129,10 @@ impl<'g, T: Real> Cells<'g, T> {
                 let slope = sampler.slope(self.gap, x)?;
                 let off = (slope - assumed).abs();
                 if off > most {
-                    missed = Some((off, ContactError::FeatureMissed { x, slope, assumed }));
+                    missed = Some((
+                        off,
+                        ContactError::Solve(SolveError::FeatureMissed { x, slope, assumed }),
+                    ));
                 }
             }
         }

@@ -11,7 +11,7 @@ use super::series_bounds::{below, least, truncation_error};
 use super::{Extremum, nearer, undecided};
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::Table;
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, SolveError};
 
 /// Number of nodes of a cell.
 const NODES: usize = 16;
@@ -54,7 +54,7 @@ pub(super) struct Inside<'c, T: Real> {
 impl<T: Real> Inside<'_, T> {
     fn tension(&self, Extremum { x, value: pressure }: Extremum<T>) -> ContactError<T> {
         let (interval, load) = (self.hull, self.load);
-        ContactError::Tension { x, pressure, interval, load }
+        ContactError::Solve(SolveError::Tension { x, pressure, interval, load })
     }
 
     /// Finds the place where the ratio of the pressure to that under a smooth body is least. Fails

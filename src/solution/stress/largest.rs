@@ -3,7 +3,7 @@
 use super::super::peak::{places, rises};
 use super::super::pressure_integral::Density;
 use super::{Stress, StressPeak, Subsurface, checked_ratio};
-use crate::{ContactError, Interval, Real, Side};
+use crate::{ContactError, EvaluationError, InputError, Interval, Real, Side};
 use std::cmp::Ordering;
 
 /// Number of abscissae and of depths on the first grid.
@@ -38,9 +38,10 @@ impl<T: Real> Subsurface<'_, T> {
     /// seconds for a hundred.
     ///
     /// # Errors
-    /// [`ContactError::Singular`] where the shear is infinite: at an edge of infinite pressure, and
-    /// with friction also where the slope of the gap jumps; those of [`at`](Self::at);
-    /// [`ContactError::Cancelled`] by the function that [watches](crate::Contact::watch).
+    /// [`EvaluationError::Singular`] where the shear is infinite: at an edge of infinite pressure,
+    /// and with friction also where the slope of the gap jumps; those of [`at`](Self::at);
+    /// [`SolveError::Cancelled`](crate::SolveError::Cancelled) by the function that
+    /// [watches](crate::Contact::watch).
     pub fn max_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
         self.check_edges()?;
         if !self.friction.is_zero() {
@@ -53,7 +54,7 @@ impl<T: Real> Subsurface<'_, T> {
     ///
     /// # Errors
     /// As [`max_shear`](Self::max_shear), without friction also where the slope of the gap jumps,
-    /// unless ν is 1/2; [`ContactError::InvalidPoissonRatio`].
+    /// unless ν is 1/2; [`InputError::InvalidPoissonRatio`].
     pub fn max_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
         let poisson = checked_ratio(poisson)?;
         self.check_edges()?;
@@ -70,7 +71,7 @@ impl<T: Real> Subsurface<'_, T> {
         // If both edges are singular, the error names the right one.
         for side in [Side::Right, Side::Left] {
             if !found.free[side] && found.strengths[side].abs() > least {
-                return Err(ContactError::Singular { x: hull[side] });
+                return Err(EvaluationError::Singular { x: hull[side] }.into());
             }
         }
         Ok(())
@@ -79,7 +80,7 @@ impl<T: Real> Subsurface<'_, T> {
     /// Refuses breakpoints at which the pressure is infinite.
     fn check_breakpoints(&self) -> Result<(), ContactError<T>> {
         match self.tips()?.first() {
-            Some(&x) => Err(ContactError::Singular { x }),
+            Some(&x) => Err(EvaluationError::Singular { x }.into()),
             None => Ok(()),
         }
     }
@@ -109,7 +110,7 @@ impl<T: Real> Subsurface<'_, T> {
             }
         }
         let value = self.solution.load();
-        best.ok_or(ContactError::InvalidLoad { quantity: "load", value })
+        best.ok_or(ContactError::Input(InputError::InvalidLoad { quantity: "load", value }))
     }
 
     /// Lists places on the surface of a contact: its grid of pressures, and the places where stress
@@ -173,7 +174,7 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
         let value = match self.below.at(x, depth) {
             Ok(stress) => (self.value)(stress)?,
             // The shear is bounded, or the strength of the edge is only rounding.
-            Err(ContactError::Singular { .. }) => -T::one(),
+            Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => -T::one(),
             Err(error) => return Err(error),
         };
         Ok((place, StressPeak { x, depth, value }))

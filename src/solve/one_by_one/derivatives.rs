@@ -8,7 +8,7 @@
 use crate::gap::{Cost, Gap};
 use crate::quadrature::Integrator;
 use crate::solve::equations::Equations;
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, SolveError};
 
 /// Number of steps; each gains three to five digits.
 const STEPS: usize = 6;
@@ -75,6 +75,6 @@ pub(super) fn differentiate<T: Real>(
     if shift <= T::of(0.25) * size {
         Ok(on)
     } else {
-        Err(ContactError::NoEquilibrium { half_width: size, near: found.centre() })
+        Err(SolveError::NoEquilibrium { half_width: size, near: found.centre() }.into())
     }
 }

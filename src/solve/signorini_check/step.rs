@@ -10,7 +10,7 @@ const MAX_HALVES: usize = 26;
 /// Searches the way from the contacts to an overlap for a step of the heights that the slopes do
 /// not show.
 ///
-/// Returns [`ContactError::InconsistentHeights`] with two places around the step, or `None` if
+/// Returns [`InputError::InconsistentHeights`] with two places around the step, or `None` if
 /// slopes and heights agree.
 pub(in crate::solve) fn step_of_heights<T: Real>(
     gap: &Gap<'_, T>,

@@ -4,7 +4,7 @@ use super::super::capacity::capacity;
 use super::super::edges::Given;
 use super::{ABOUT, Single};
 use crate::solution::ContactState;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Interval, Real, SolveError};
 
 /// Largest number of steps of a pull: the first may be far longer than the last.
 const MAX_PULLS: usize = 200;
@@ -30,9 +30,11 @@ impl<T: Real> Single<'_, '_, T> {
             Ok(found) => (T::zero(), found.interval),
             // Errors of a contact that does not fit.
             Err(
-                error @ (ContactError::DomainTooShort { .. }
-                | ContactError::NoEquilibrium { .. }
-                | ContactError::Overflow { .. }),
+                error @ ContactError::Solve(
+                    SolveError::DomainTooShort { .. }
+                    | SolveError::NoEquilibrium { .. }
+                    | SolveError::Overflow { .. },
+                ),
             ) => {
                 let ends = self.contact.ends();
                 let widest = capacity(self.contact, &self.conditions, ends, self.cost);
@@ -61,7 +63,7 @@ impl<T: Real> Single<'_, '_, T> {
                 None => step *= T::of(0.5),
             }
         }
-        Err(fault.unwrap_or(ContactError::PullOff { load, least }))
+        Err(fault.unwrap_or(ContactError::Solve(SolveError::PullOff { load, least })))
     }
 
     /// Finds the contact under a load, from one nearby.

@@ -4,7 +4,7 @@ use super::super::edges::{Conditions, Given};
 use super::super::first_contact::first_contact;
 use super::{Elsewhere, MAX_GUESSES, Single};
 use crate::gap::Sampler;
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, SolveError};
 
 impl<T: Real> Single<'_, '_, T> {
     /// Returns another start: low places of the gap, if heights are known, or the place of first
@@ -59,7 +59,7 @@ impl<T: Real> Single<'_, '_, T> {
             let stiffness = quarter * conditions.kappa * rise;
             // So small a load is below any number.
             if stiffness > T::zero() && (reach * stiffness).is_zero() {
-                return Err(ContactError::Overflow { interval: on });
+                return Err(SolveError::Overflow { interval: on }.into());
             }
             let share =
                 if leans { (falls / rise).max(T::zero()).min(T::one()) } else { T::of(0.5) };

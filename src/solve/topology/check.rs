@@ -6,7 +6,7 @@ use crate::gap::Gap;
 use crate::quadrature::panels::Several;
 use crate::quadrature::{Panels, Quadrature, panels};
 use crate::solution::ContactState;
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, Interval, Real, SolveError};
 
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Looks for narrow features in the contacts found; tells whether the panels missed one.
@@ -85,9 +85,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
         overlaps.dips.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {
-                return Err(ContactError::Overflow { interval });
+                return Err(SolveError::Overflow { interval }.into());
             }
-            return Ok(Some(ContactError::Tension { x, pressure, interval, load }));
+            return Ok(Some(ContactError::Solve(SolveError::Tension {
+                x,
+                pressure,
+                interval,
+                load,
+            })));
         }
         // A contact from end to end leaves nothing outside.
         if !covers {
@@ -101,7 +106,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if let Some(own) = own {
             self.work.cost.heights += own.cost().evaluations;
         }
-        Ok(overlap.map(|[x, gap]| ContactError::Overlap { x, gap, interval, load }))
+        Ok(overlap
+            .map(|[x, gap]| ContactError::Solve(SolveError::Overlap { x, gap, interval, load })))
     }
 
     /// Looks for narrow features next to the contacts found.

@@ -18,7 +18,7 @@ use super::super::newton::several::{self, Besides, outermost, put};
 use super::{Conditions, FIRST_CELLS, Search, Single, Work, Workspace, asked_by};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
-use crate::{ContactError, Edge, Ends, Interval, Real, Side};
+use crate::{ContactError, Edge, Ends, Interval, Real, Side, SolveError};
 
 /// Largest uncertainty of heights, as a share of F/κ, to show by themselves where the bodies touch.
 const CLOSELY: f64 = 0.002;
@@ -83,7 +83,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
                     self.report(start, Outcome::Passed);
                     return Ok(found);
                 }
-                Trial::Fails(error @ ContactError::LiftsOff { .. }) => return Err(error),
+                Trial::Fails(error @ ContactError::Solve(SolveError::LiftsOff { .. })) => {
+                    return Err(error);
+                }
                 Trial::Fails(error) => (Outcome::of(fault.insert(error)), self.mend()),
                 Trial::NotFound(error) => {
                     fault = Some(error);
@@ -103,7 +105,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     fn no_balance(&self) -> ContactError<T> {
         let [from, to] = self.contact.gap.range();
-        ContactError::NoEquilibrium { half_width: T::of(0.5) * (to - from), near: from }
+        ContactError::Solve(SolveError::NoEquilibrium {
+            half_width: T::of(0.5) * (to - from),
+            near: from,
+        })
     }
 
     /// Returns the error of a search whose trials have all failed; `first` is the error of the
@@ -116,8 +121,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         // The error of one contact alone says more, unless it is the load that one contact would
         // bear.
         let says = |fault: &ContactError<T>| match fault {
-            ContactError::NoEquilibrium { .. } => false,
-            ContactError::DomainTooShort { .. } => self.runs_out.is_none(),
+            ContactError::Solve(SolveError::NoEquilibrium { .. }) => false,
+            ContactError::Solve(SolveError::DomainTooShort { .. }) => self.runs_out.is_none(),
             _ => true,
         };
         let fault = first.filter(says).or(fault.filter(says));
@@ -348,10 +353,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let mut height = |x: T| Ok(gap.turned(x, look.height(gap.nearest(x))));
         active_set(&scene, cell_work, &mut height).map_err(|error| match error {
             NotFound::Height(error) => error,
-            _ => ContactError::NoEquilibrium {
+            _ => ContactError::Solve(SolveError::NoEquilibrium {
                 half_width: T::of(0.5) * (ends.right - ends.left),
                 near: look.lowest(),
-            },
+            }),
         })
     }
 

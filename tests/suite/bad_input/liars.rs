@@ -23,9 +23,9 @@ fn budgets_of_searches() {
                 40,
                 || Ok(contact.solve(load).map(|_| ())?),
                 |wrong| {
-                    matches!(wrong, Wrong::Contact(ContactError::Inversion {
+                    matches!(wrong, Wrong::Contact(ContactError::Solve(SolveError::Inversion {
                         body: Body::Upper, x, source: SearchError::Budget { best },
-                    }) if best.evaluations <= max_evaluations && x.abs() < 1.2 && best.x.abs() <= 1.0)
+                    })) if best.evaluations <= max_evaluations && x.abs() < 1.2 && best.x.abs() <= 1.0)
                 },
             );
             let contact = Contact::new(&Flat, &*upper).unwrap().limit_search(&**strategy);
@@ -38,10 +38,10 @@ fn budgets_of_searches() {
                     matches!(
                         outcome,
                         Ok(_)
-                            | Err(Wrong::Contact(ContactError::LimitSearch {
+                            | Err(Wrong::Contact(ContactError::Solve(SolveError::LimitSearch {
                                 source: SearchError::Budget { .. },
                                 ..
-                            }))
+                            })))
                     )
                 },
             );
@@ -153,12 +153,15 @@ fn strategies_that_lie() {
                     Err(Wrong::Contact(error)) => {
                         matches!(
                             error,
-                            ContactError::Inversion { .. }
-                                | ContactError::Profile { .. }
-                                | ContactError::LimitSearch { .. }
-                                | ContactError::OutsideBodies { .. }
-                                | ContactError::Overflow { .. }
-                        ) || (how.contains("peak") && matches!(error, ContactError::NoPeak { .. }))
+                            ContactError::Solve(SolveError::Inversion { .. })
+                                | ContactError::Input(InputError::Profile { .. })
+                                | ContactError::Solve(
+                                    SolveError::LimitSearch { .. }
+                                        | SolveError::OutsideBodies { .. }
+                                        | SolveError::Overflow { .. }
+                                )
+                        ) || (how.contains("peak")
+                            && matches!(error, ContactError::Solve(SolveError::NoPeak { .. })))
                     }
                     Err(_) => false,
                 },

@@ -25,12 +25,12 @@ fn bodies() {
             0,
             || Ok(Contact::new(&Flat, &*curve(domain, point)).map(|_| ())?),
             |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper, source })
+                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::Profile { body: Body::Upper, source }))
                     if wanted(source))
             },
         );
         let below = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Lower, source })
+            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::Profile { body: Body::Lower, source }))
                 if wanted(source))
         };
         let lower = curve(domain, point);
@@ -51,7 +51,7 @@ fn bodies() {
         "a subnormal domain",
         100,
         || solve(&*narrow, Control::Load(1.0)),
-        contact_error!(ContactError::NoFirstContact { .. }),
+        contact_error!(ContactError::Solve(SolveError::NoFirstContact { .. })),
     );
     for value in [NAN, INF, -INF] {
         let end = curve([-1.0, 1.0], move |k| CurvePoint {
@@ -64,7 +64,7 @@ fn bodies() {
         };
         let name = format!("X({value}) at the end");
         table.row(&name, 2, || Ok(Contact::new(&Flat, &*end).map(|_| ())?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Profile { source, .. }) if wanted(source))
+            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::Profile { source, .. })) if wanted(source))
         });
         table.row(
             &format!("X({value}) at the end"),
@@ -78,10 +78,10 @@ fn bodies() {
         "X stands still",
         3,
         || Ok(Contact::new(&Flat, &*still).map(|_| ())?),
-        contact_error!(ContactError::Profile {
+        contact_error!(ContactError::Input(InputError::Profile {
             source: ProfileError::TurnsBack { k: 0.0, x: 0.25, .. },
             ..
-        }),
+        })),
     );
     let beside = curve([-3.0, -1.0], |k| CurvePoint { x: k, y: 0.0, dx: 1.0, dy: 0.0 });
     table.row(
@@ -91,7 +91,10 @@ fn bodies() {
             Ok(Contact::new(&*beside, &*curve([-1.0, 1.0], |k| CurvePoint { x: k, ..point(k) }))
                 .map(|_| ())?)
         },
-        contact_error!(ContactError::NoCommonRange { lower: [-3.0, -1.0], upper: [-1.0, 1.0] }),
+        contact_error!(ContactError::Input(InputError::NoCommonRange {
+            lower: [-3.0, -1.0],
+            upper: [-1.0, 1.0]
+        })),
     );
     table.finish();
 }
@@ -143,8 +146,8 @@ fn compound_profiles_that_are_none() {
             assert_eq!(faults, [ProfileError::Pieces { count: says, index: fault }; 2], "{name}");
         }
         table.row(name, 100, || solve(&compound, Control::Load(0.02)), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper,
-                source: ProfileError::Pieces { count, index } }) if (*count, *index) == (says, fault))
+            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::Profile { body: Body::Upper,
+                source: ProfileError::Pieces { count, index } })) if (*count, *index) == (says, fault))
         });
     }
     let compound = Compound { says: 3, has: 3, parts: parts() };
@@ -220,7 +223,7 @@ fn curves() {
               table: &mut Table| {
         for load in [Control::Load(0.05), Control::HalfWidth(0.3), Control::PeakPressure(0.1)] {
             table.row(name, 40_000, || solve(&*upper, load), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Profile { body: Body::Upper, source })
+                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::Profile { body: Body::Upper, source }))
                     if expected(source))
             });
         }

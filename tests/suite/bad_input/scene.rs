@@ -18,20 +18,20 @@ fn loads_scales_and_edges() {
         for (name, says, way) in ways {
             let given = if name == "Constant" { value / PI } else { value };
             table.solve(&format!("{name}({value:e})"), 0, &contact, way(value), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::InvalidLoad { quantity, value })
+                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidLoad { quantity, value }))
                     if *quantity == says && same(*value, given))
             });
         }
         table.solve(&format!("κ = {value:e}"), 0, &contact.clone().kappa(value), good, |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::InvalidKappa { kappa }) if same(*kappa, value))
+            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidKappa { kappa })) if same(*kappa, value))
         });
         table.solve(&format!("E* = {value:e}"), 0, &contact.clone().contact_modulus(value), good, |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::InvalidModulus { modulus }) if same(*modulus, value))
+            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidModulus { modulus })) if same(*modulus, value))
         });
         if value != 0.0 {
             let adhesive = contact.clone().edges(Edge::Free, Edge::Adhesive(value));
             table.solve(&format!("w = {value:e}"), 0, &adhesive, good, |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::InvalidAdhesion { work }) if same(*work, value))
+                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidAdhesion { work })) if same(*work, value))
             });
         }
     }
@@ -54,15 +54,20 @@ fn loads_scales_and_edges() {
                         Err(Wrong::Contact(error)) => {
                             matches!(
                                 error,
-                                ContactError::DomainTooShort { .. }
-                                    | ContactError::HalfWidthTooLarge { .. }
-                                    | ContactError::Overflow { .. }
-                                    | ContactError::NoPeak { .. }
-                                    | ContactError::PeakTooHigh { .. }
-                                    | ContactError::NoEquilibrium { .. }
-                                    | ContactError::OutsideBodies { .. }
+                                ContactError::Solve(
+                                    SolveError::DomainTooShort { .. }
+                                        | SolveError::HalfWidthTooLarge { .. }
+                                        | SolveError::Overflow { .. }
+                                        | SolveError::NoPeak { .. }
+                                        | SolveError::PeakTooHigh { .. }
+                                        | SolveError::NoEquilibrium { .. }
+                                        | SolveError::OutsideBodies { .. }
+                                )
                             ) || (value < f64::MIN_POSITIVE
-                                && matches!(error, ContactError::InvalidLoad { .. }))
+                                && matches!(
+                                    error,
+                                    ContactError::Input(InputError::InvalidLoad { .. })
+                                ))
                         }
                         Err(_) => false,
                     },
@@ -85,7 +90,7 @@ fn loads_scales_and_edges() {
             let contact = contact.clone().edges(left, right);
             for load in [good, Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
                 table.solve(&format!("{edges:?}, {load:?}"), 0, &contact, load, |wrong| {
-                    matches!(wrong, Wrong::Contact(ContactError::InvalidLimits { interval })
+                    matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidLimits { interval }))
                         if same(interval.left, x) || same(interval.right, x))
                 });
             }
@@ -93,7 +98,7 @@ fn loads_scales_and_edges() {
     }
     for (left, right) in [(0.2, -0.2), (0.1, 0.1), (NAN, 0.1), (0.0, INF), (-INF, INF)] {
         let is_it = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::InvalidLimits { interval })
+            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidLimits { interval }))
                 if same(interval.left, left) && same(interval.right, right))
         };
         for load in [good, Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
@@ -108,7 +113,7 @@ fn loads_scales_and_edges() {
     for (left, right, beyond) in [(-1.5, 0.1, -1.5), (-0.1, 2.0, 2.0)] {
         let fixed = contact.clone().edges(Edge::Fixed(left), Edge::Fixed(right));
         table.solve("fixed beyond the bodies", 0, &fixed, good, |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::OutsideBodies { x, range: [-1.2, 1.2] }) if *x == beyond)
+            matches!(wrong, Wrong::Contact(ContactError::Solve(SolveError::OutsideBodies { x, range: [-1.2, 1.2] })) if *x == beyond)
         });
     }
     let both = contact.clone().edges(Edge::Fixed(-0.1), Edge::Fixed(0.1));
@@ -116,9 +121,9 @@ fn loads_scales_and_edges() {
         table.solve(&format!("both limits and {load:?}"), 0, &both, load, |wrong| {
             matches!(
                 wrong,
-                Wrong::Contact(ContactError::BothLimitsGiven {
+                Wrong::Contact(ContactError::Input(InputError::BothLimitsGiven {
                     interval: Interval { left: -0.1, right: 0.1 }
-                })
+                }))
             )
         });
         let by_pressure = contact.clone().edge_pressure(EdgePressure::zero(1e-3, 1e-6));
@@ -127,7 +132,7 @@ fn loads_scales_and_edges() {
             0,
             &by_pressure,
             load,
-            contact_error!(ContactError::EdgePressureLoad),
+            contact_error!(ContactError::Input(InputError::EdgePressureLoad)),
         );
     }
     table.finish();
@@ -154,20 +159,23 @@ fn edge_pressures_rules_and_tolerances() {
             }
             let contact = contact.clone().edge_pressure(edges);
             table.solve(&format!("{wrong_one} = {value}"), 0, &contact, load, |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::InvalidEdgePressure { name, value: v })
+                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidEdgePressure { name, value: v }))
                     if *name == wrong_one && same(*v, value))
             });
         }
         let by_pressure = contact.clone().edge_pressure(good);
         table.solve(&format!("Eq. (6) under {value}"), 0, &by_pressure, Control::Load(value), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::InvalidLoad { quantity: "load", value: v }) if same(*v, value))
+            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidLoad { quantity: "load", value: v })) if same(*v, value))
         });
     }
     let far = contact.clone().edge_pressure(EdgePressure::zero(2.4, 1e-6));
     table.solve("ε_a as long as the bodies", 100, &far, load, |wrong| {
         matches!(
             wrong,
-            Wrong::Contact(ContactError::InvalidEdgePressure { name: "ε_a", value: 2.4 })
+            Wrong::Contact(ContactError::Input(InputError::InvalidEdgePressure {
+                name: "ε_a",
+                value: 2.4
+            }))
         )
     });
     for (segments, extrapolations) in [
@@ -184,7 +192,7 @@ fn edge_pressures_rules_and_tolerances() {
         let rule = Midpoint { segments, extrapolations, exponents: Exponents::Even };
         let contact = contact.clone().quadrature(&rule);
         let is_it = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::InvalidSegments { segments: s, extrapolations: e })
+            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidSegments { segments: s, extrapolations: e }))
                 if (*s, *e) == (segments, extrapolations))
         };
         table.solve(&format!("{rule:?}"), 0, &contact, load, is_it);
@@ -195,7 +203,7 @@ fn edge_pressures_rules_and_tolerances() {
         let panels = Panels { tolerance };
         let contact_by = contact.clone().quadrature(&panels);
         let is_it = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::InvalidTolerance { tolerance: t })
+            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidTolerance { tolerance: t }))
                 if same(*t, tolerance))
         };
         table.solve(&format!("{panels:?}"), 0, &contact_by, load, is_it);
@@ -222,16 +230,16 @@ fn edge_pressures_rules_and_tolerances() {
                     &inverting,
                     load,
                     |wrong| {
-                        matches!(wrong, Wrong::Contact(ContactError::Inversion {
+                        matches!(wrong, Wrong::Contact(ContactError::Solve(SolveError::Inversion {
                             source: SearchError::Tolerance { value }, ..
-                        }) if same(*value, bad))
+                        })) if same(*value, bad))
                     },
                 );
                 let searching = contact.clone().limit_search(&**strategy);
                 table.solve(&format!("search by {tolerance:?}"), 200, &searching, load, |wrong| {
-                    matches!(wrong, Wrong::Contact(ContactError::LimitSearch {
+                    matches!(wrong, Wrong::Contact(ContactError::Solve(SolveError::LimitSearch {
                         best, source: SearchError::Tolerance { value },
-                    }) if same(*value, bad) && best.left < best.right)
+                    })) if same(*value, bad) && best.left < best.right)
                 });
             }
         }

@@ -5,7 +5,7 @@ use crate::common;
 
 use common::{circle, join};
 use linecontact::{
-    Contact, ContactError, Control, Flat, Interval, Midpoint, Panels, Solution, Solver,
+    Contact, ContactError, Control, Flat, InputError, Interval, Midpoint, Panels, Solution, Solver,
 };
 
 #[test]
@@ -65,7 +65,7 @@ fn the_quadrature_is_that_of_each_contact() {
     // Unusable settings are refused here, too, and leave the solver intact.
     let never = Panels { tolerance: 1.0 };
     let refused = solver.solve(&contact.clone().quadrature(&never), load).unwrap_err();
-    assert_eq!(refused, ContactError::InvalidTolerance { tolerance: 1.0 });
+    assert_eq!(refused, ContactError::Input(InputError::InvalidTolerance { tolerance: 1.0 }));
     let alone = seen(&contact.solve(load).unwrap());
     assert_eq!(seen(&solver.solve(&contact, load).unwrap()), alone);
 }

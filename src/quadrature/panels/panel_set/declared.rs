@@ -3,7 +3,7 @@
 use super::PanelSet;
 use crate::gap::Gap;
 use crate::quadrature::panels::Panel;
-use crate::{ContactError, Real};
+use crate::{ContactError, InputError, Real};
 
 /// Allowed fall of the slope on a panel, in units of its uncertainty or of the tolerance. A fall up
 /// to the square root of the rounding unit, as a share of the largest slope, is always allowed:
@@ -16,7 +16,7 @@ impl<T: Real> PanelSet<T> {
     /// convex: they must not fall from a node to the next, nor where two panels meet.
     ///
     /// # Errors
-    /// [`ContactError::NotConvex`].
+    /// [`InputError::NotConvex`].
     pub(super) fn check_declared(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
         if !gap.is_convex() || self.coarse {
             return Ok(());
@@ -34,7 +34,7 @@ impl<T: Real> PanelSet<T> {
                 None => None,
             };
             if let Some((between, slopes)) = fall {
-                return Err(ContactError::NotConvex { between, slopes });
+                return Err(InputError::NotConvex { between, slopes }.into());
             }
             before = Some((right, allowed));
         }

@@ -4,7 +4,7 @@ use super::PanelSet;
 use crate::gap::{Cost, CurveSample, Gap, Sampler};
 use crate::numerics::chebyshev::{Table, middle};
 use crate::quadrature::panels::panel::{Panel, spans, within};
-use crate::{Body, ContactError, Interval, ProfileError, Real};
+use crate::{Body, ContactError, InputError, Interval, ProfileError, Real};
 
 impl<T: Real> PanelSet<T> {
     /// Refuses a wrong sign or factor in a derivative. Looks at the two last points whose heights
@@ -15,7 +15,7 @@ impl<T: Real> PanelSet<T> {
             if cache.direct || samples.len() < 8 {
                 continue;
             }
-            let refuse = |source| Err(ContactError::Profile { body, source });
+            let refuse = |source| Err(InputError::Profile { body, source }.into());
             if let Some(&CurveSample { k, y, .. }) = samples.iter().find(|one| !one.y.is_finite()) {
                 return refuse(ProfileError::NotFinite { quantity: "Y", k, value: y });
             }
@@ -159,7 +159,7 @@ impl<T: Real> Rises<T> {
         if (by_heights - by_slopes).abs() <= rounding + share + open {
             return Ok(());
         }
-        Err(ContactError::InconsistentHeights { between, by_heights, by_slopes })
+        Err(InputError::InconsistentHeights { between, by_heights, by_slopes }.into())
     }
 
     /// Refuses heights that contradict the slopes by more than their noise, measured at both places

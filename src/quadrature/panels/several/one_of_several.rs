@@ -9,7 +9,7 @@ use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES, Table, by_size, power_series, size_for};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::Moments;
-use crate::{ContactError, Interval, Real, Side};
+use crate::{ContactError, InputError, Interval, Real, Side};
 
 /// Most halvings of a panel to resolve the weight next to a gap, which may be as narrow as rounding
 /// allows.
@@ -133,7 +133,8 @@ impl<T: Real> OneOfSeveral<T> {
             let mut cost = Cost::default();
             let heights = self.panel_set.heights(gap, places, &mut cost);
             self.panel_set.cost += cost;
-            let may_hide = matches!(heights, Err(ContactError::InconsistentHeights { .. }));
+            let may_hide =
+                matches!(heights, Err(ContactError::Input(InputError::InconsistentHeights { .. })));
             trials += 1;
             if !may_hide || trials > MAX_MISSED || !self.panel_set.probe(gap, self.on.plain())? {
                 return heights.map(|[height, _]| height);

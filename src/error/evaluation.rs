@@ -1,0 +1,99 @@
+//! Errors of questions to a solution.
+
+use crate::rounded::{apart, six, span};
+use crate::{Interval, Real};
+use thiserror::Error;
+
+/// Reason why a quantity of a known contact is not available. Every variant names the place and the
+/// values.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum EvaluationError<T: Real> {
+    /// The pressure was asked for where it is infinite: at a fixed or adhesive edge, at an edge
+    /// where Eq. (6) has left a singularity, or where the slope of a body jumps.
+    #[error(
+        "the pressure at x = {} is infinite; ask beside it, or for edge_singularities()", six(*x)
+    )]
+    Singular {
+        /// Abscissa asked for.
+        x: T,
+    },
+    /// A point is above the surface, or not finite.
+    #[error(
+        "no stress at x = {x}, depth {depth}: both must be finite, the depth not negative",
+        x = six(*x), depth = six(*depth)
+    )]
+    AboveSurface {
+        /// Abscissa.
+        x: T,
+        /// Depth below the surface.
+        depth: T,
+    },
+    /// The table of a spring does not cover this approach.
+    #[error(
+        "the table covers approaches from {}, not {}: make it for a wider range of loads (apart, the bodies bear none)",
+        span(range[0], range[1]), apart(*approach, range)
+    )]
+    OutsideTable {
+        /// Approach as given.
+        approach: T,
+        /// Least and largest approach in the table.
+        range: [T; 2],
+    },
+    /// A point is not inside the contact, or not outside it, as required.
+    #[error(
+        "x = {} must lie {}side the contact from {}",
+        apart(*x, &[interval.left, interval.right]), if *inside { "in" } else { "out" },
+        span(interval.left, interval.right)
+    )]
+    InvalidPosition {
+        /// Abscissa of the point.
+        x: T,
+        /// True if the point must be strictly inside.
+        inside: bool,
+        /// Contact.
+        interval: Interval<T>,
+    },
+    /// The derivatives of the contact by the load are not known.
+    #[error("the derivatives by the load are not known: {why}")]
+    NoLoadDerivative {
+        /// Reason, for the message.
+        why: &'static str,
+    },
+    /// The number of places for pressures is not the number of abscissae.
+    #[error(
+        "{x} abscissae, but {pressures} places for pressures: give as many of the one as of the other"
+    )]
+    LengthMismatch {
+        /// Number of abscissae.
+        x: usize,
+        /// Number of places for pressures.
+        pressures: usize,
+    },
+    /// An integral over the pressure has not converged.
+    #[error(
+        "an integral over the pressure for x = {x} has not converged in {panels} panels: the \
+         pressure is too rough; set a looser tolerance or a finer quadrature", x = six(*x)
+    )]
+    Integral {
+        /// Abscissa for which the integral was taken.
+        x: T,
+        /// Number of panels tried.
+        panels: usize,
+    },
+    /// The quadrature has no correct digit of the pressure: `x` is too close to an edge for its
+    /// segments.
+    #[error(
+        "the pressure at x = {x} is not resolved: {pressure} with an error of about \
+         {error}; take more segments, or stay further away from the edge",
+        x = six(*x), pressure = six(*pressure), error = six(*error)
+    )]
+    Unresolved {
+        /// Abscissa asked for.
+        x: T,
+        /// Pressure by the quadrature.
+        pressure: T,
+        /// Estimated error of this pressure.
+        error: T,
+    },
+}

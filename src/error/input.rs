@@ -1,0 +1,270 @@
+//! Errors of the input.
+
+use super::advice::{along, lost_digits};
+use crate::profile::SplineError;
+use crate::rounded::{apart, six, span};
+use crate::{Body, Edge, Interval, PiecewiseError, ProfileError, Real};
+use thiserror::Error;
+
+/// Reason why the input is invalid: a body, an edge, a load or a setting. The same call fails
+/// again. Every variant names the place and the values.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum InputError<T: Real> {
+    /// A body could not be made.
+    #[error(transparent)]
+    Shape(#[from] ProfileError<T>),
+    /// A body could not be joined from its pieces.
+    #[error(transparent)]
+    Pieces(#[from] PiecewiseError<T>),
+    /// A spline could not be made from its points.
+    #[error(transparent)]
+    Points(#[from] SplineError<T>),
+    /// The profile of a body is faulty.
+    #[error("{body} body: {source}")]
+    Profile {
+        /// Body with this profile.
+        body: Body,
+        /// Fault of the profile.
+        source: ProfileError<T>,
+    },
+    /// The two bodies have no `x` in common.
+    #[error(
+        "the bodies lie beside each other: the lower covers x = {}, the upper {}; move one of them over the other",
+        span(lower[0], lower[1]), span(upper[0], upper[1])
+    )]
+    NoCommonRange {
+        /// Range of `x` of the lower body.
+        lower: [T; 2],
+        /// Range of `x` of the upper body.
+        upper: [T; 2],
+    },
+    /// The load, half-width, peak pressure or approach asked for is not finite, or so small that it
+    /// has lost digits, or not positive. A load needs to be positive only where limits are sought
+    /// without adhesion.
+    #[error(
+        "the {quantity} is {value}: it must be finite, and positive where limits are sought{}",
+        lost_digits(*value), value = six(*value)
+    )]
+    InvalidLoad {
+        /// Quantity asked for: `load`, `half-width`, `peak pressure` or `approach`.
+        quantity: &'static str,
+        /// Its value.
+        value: T,
+    },
+    /// κ is not a positive finite number.
+    #[error("κ = {kappa}: the scale must be positive and finite (κ = π E*/2)", kappa = six(*kappa))]
+    InvalidKappa {
+        /// κ as given.
+        kappa: T,
+    },
+    /// The contact modulus E* is not a positive finite number, or κ = π E*/2 is not.
+    #[error("E* = {}: the contact modulus must be positive, and π E*/2 finite", six(*modulus))]
+    InvalidModulus {
+        /// E* as given.
+        modulus: T,
+    },
+    /// Given or starting limits are not in order, or a half-width is lost in the rounding of `x`.
+    #[error(
+        "the interval from -b = {left} to a = {right} is empty, reversed, not finite, or narrower than the rounding \
+         of x; give finite limits, the left one first",
+        left = apart(interval.left, &[interval.right]), right = apart(interval.right, &[interval.left])
+    )]
+    InvalidLimits {
+        /// The interval as given.
+        interval: Interval<T>,
+    },
+    /// One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is out of range.
+    #[error(
+        "{name} = {}: distances and tolerances of Eq. (6) must be positive and finite, A and B \
+         finite, distances shorter than the bodies and longer than the rounding of x", six(*value)
+    )]
+    InvalidEdgePressure {
+        /// Name of the quantity.
+        name: &'static str,
+        /// Its value.
+        value: T,
+    },
+    /// The number of segments is zero, or there are more points than can be counted.
+    #[error(
+        "{segments} segments with {extrapolations} extrapolations: give at least one segment, and \
+         fewer than 2^24 points at the finest level"
+    )]
+    InvalidSegments {
+        /// Number of segments, N.
+        segments: usize,
+        /// Number of extrapolations, ET.
+        extrapolations: u32,
+    },
+    /// A body's Y does not match its Y', so that heights and slopes of the gap contradict each
+    /// other. Y has a step, or a derivative is wrong:
+    /// [`check_derivatives`](crate::check_derivatives) tells for which body.
+    #[error(
+        "from x = {} the gap rises by {by_heights} by the heights Y of the bodies, but by {by_slopes} by their \
+         slopes Y'/X': one of them has a Y that does not go with its Y', or a step in Y; check_derivatives tells which",
+        span(between[0], between[1]), by_heights = apart(*by_heights, &[*by_slopes]),
+        by_slopes = apart(*by_slopes, &[*by_heights])
+    )]
+    InconsistentHeights {
+        /// Two abscissae.
+        between: [T; 2],
+        /// Rise of `Y₂ - Y₁` from the first abscissa to the second.
+        by_heights: T,
+        /// `∫ (Y₂'/X₂' - Y₁'/X₁') dx` from the first abscissa to the second.
+        by_slopes: T,
+    },
+    /// The bodies [declare](crate::Convexity) that they bulge towards each other, but the slope of
+    /// the gap falls.
+    #[error(
+        "the slope of the gap falls from {} {}, but the bodies declare that they bulge towards each other: declare \
+         Convexity::Unknown, or correct the curve", span(slopes[0], slopes[1]), along(*between)
+    )]
+    NotConvex {
+        /// Two abscissae, the left one first; equal where the slope jumps.
+        between: [T; 2],
+        /// Slopes of the gap at these abscissae, before the bodies turn: ratios of lengths.
+        slopes: [T; 2],
+    },
+    /// The tolerance of the panels is negative, one or more, or NaN.
+    #[error(
+        "tolerance {tolerance} is out of range: use 0 <= tolerance < 1 (SpringTable: > 0)",
+        tolerance = six(*tolerance)
+    )]
+    InvalidTolerance {
+        /// The tolerance as given.
+        tolerance: T,
+    },
+    /// The [resolution](crate::Contact::resolution) is not a length, or is lost in the rounding of
+    /// x.
+    #[error(
+        "the resolution is {resolution}: the narrowest feature to be seen is a length along x, finite and more than {least}",
+        resolution = six(*resolution), least = six(*least)
+    )]
+    InvalidResolution {
+        /// The resolution as given: a length.
+        resolution: T,
+        /// Least length that the rounding of x in the contact allows; zero where no contact was
+        /// found yet.
+        least: T,
+    },
+    /// A work of adhesion is negative or not finite.
+    #[error("the work of adhesion is {}: it must be finite and not negative", six(*work))]
+    InvalidAdhesion {
+        /// The work of adhesion as given.
+        work: T,
+    },
+    /// Both limits are given: then only a load can be asked for.
+    #[error(
+        "both limits are given, -b = {} and a = {}: then the load must be given too, not the \
+         half-width or the peak", apart(interval.left, &[interval.right]), apart(interval.right, &[interval.left])
+    )]
+    BothLimitsGiven {
+        /// The limits.
+        interval: Interval<T>,
+    },
+    /// A moment, or the place where a load acts, is not finite.
+    #[error(
+        "the moment, the place it is about, or the place where the load acts is {value}: it must be finite",
+        value = six(*value)
+    )]
+    InvalidMoment {
+        /// The value.
+        value: T,
+    },
+    /// A moment, or the place where the load acts, was given for bodies that cannot be turned.
+    #[error(
+        "a moment, or the place where the load acts, can be given with the default quadrature Panels and \
+         search, between edges that are Free, Fixed or FreeUntil: {why}"
+    )]
+    TiltNotSupported {
+        /// Reason, for the message.
+        why: &'static str,
+    },
+    /// A peak pressure was asked for together with an edge at which the pressure is not bounded.
+    #[error(
+        "with {edge:?} the pressure is infinite at the edge, or may be: a peak pressure can be given \
+         between free edges only; give the load or the half-width"
+    )]
+    PeakEdge {
+        /// The edge asked for.
+        edge: Edge<T>,
+    },
+    /// Poisson's ratio is not one of an isotropic body that contracts when pulled.
+    #[error("Poisson's ratio is {}: it must be from 0 to 1/2, as 0.3 of steel", six(*ratio))]
+    InvalidPoissonRatio {
+        /// Poisson's ratio as given.
+        ratio: T,
+    },
+    /// Young's modulus is not a positive finite number.
+    #[error(
+        "{body} body: Young's modulus is {modulus}: it must be positive and finite (or Material::Rigid)",
+        modulus = six(*modulus)
+    )]
+    InvalidYoungsModulus {
+        /// Body with this modulus.
+        body: Body,
+        /// Young's modulus as given.
+        modulus: T,
+    },
+    /// Both bodies are rigid: then there is no pressure.
+    #[error("both bodies are Material::Rigid: at least one must be elastic")]
+    BothRigid,
+    /// An approach was asked for without the materials of the bodies: it depends on the deformation
+    /// of each body, which E* alone does not give.
+    #[error("the approach depends on E and ν of both bodies: give them by Contact::materials")]
+    NoMaterials,
+    /// The depth, radius or length of a reference is not a positive finite number, or a disc is
+    /// smaller than the contact.
+    #[error(
+        "a reference at {length}: its depth, radius or length must be positive and finite, and a disc larger \
+         than the contact", length = six(*length)
+    )]
+    InvalidReference {
+        /// Length as given.
+        length: T,
+    },
+    /// The coefficient of friction is not finite.
+    #[error("the coefficient of friction is {}: it must be finite", six(*coefficient))]
+    InvalidFriction {
+        /// Coefficient as given.
+        coefficient: T,
+    },
+    /// The coefficient of friction of partial slip is not a positive finite number.
+    #[error(
+        "the coefficient of friction is {friction}: for partial slip it must be positive and finite",
+        friction = six(*friction)
+    )]
+    InvalidSlipFriction {
+        /// μ as given.
+        friction: T,
+    },
+    /// The force or the tension of partial slip is not finite.
+    #[error("{quantity} = {}: what acts along the contact must be finite", six(*value))]
+    InvalidShear {
+        /// Name of the quantity: `force` or `tension`.
+        quantity: &'static str,
+        /// Value as given.
+        value: T,
+    },
+    /// Friction on bodies of different elasticity changes the pressure.
+    #[error(
+        "the bodies are unlike: by Dundurs' constant β = {beta} friction changes the pressure, which is not \
+         modelled; like bodies, or incompressible ones, have β = 0", beta = six(*beta)
+    )]
+    UnlikeBodies {
+        /// Dundurs' constant β in plane strain, from -1/2 to 1/2.
+        beta: T,
+    },
+    /// Partial slip is not known with these conditions.
+    #[error("partial slip is not known where {why}")]
+    SlipNotSupported {
+        /// Reason, for the message.
+        why: &'static str,
+    },
+    /// Edge pressures by the paper's Eq. (6) are given: then only a load can be prescribed.
+    #[error(
+        "with edge pressures by Eq. (6) the load must be given, not the half-width, the peak or a moment: give \
+         it, or use edges()"
+    )]
+    EdgePressureLoad,
+}
