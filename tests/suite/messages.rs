@@ -400,34 +400,20 @@ fn the_message_of_what_is_no_contact_says_where_it_is_none_and_what_helps() {
 /// Six digits; more if two numbers differ only beyond them; all if the number is to be copied.
 #[test]
 fn messages_have_the_digits_that_tell_something() {
-    let (half_width, end, peak) = (0.123_456_789, 0.987_654_321_012, 5.415_062_361_294_345);
-    let (carried, load, no) = (0.5, 0.500_000_001, false);
-    let error = ContactError::Solve(SolveError::DomainTooShort {
-        end,
-        carried,
-        load,
-        half_width,
-        peak,
-        kappa_is_default: no,
-    });
-    let message = error.to_string();
+    let end = 0.987_654_321_012;
+    let message = |[carried, half_width, peak]: [f64; 3]| {
+        let (load, kappa_is_default) = (0.500_000_001, false);
+        SolveError::DomainTooShort { end, carried, load, half_width, peak, kappa_is_default }
+            .to_string()
+    };
+    let (some, none) = (message([0.5, 0.123_456_789, 5.415_062_361_294_345]), message([0.0; 3]));
     for words in ["carry 0.5 ", "load 0.500000001,", "half-width 0.123457 ", "pressure 5.41506;"] {
-        assert!(message.contains(words), "{words}: {message}");
+        assert!(some.contains(words), "{words}: {some}");
     }
-    assert!(message.contains("x = 0.987654:"), "{message}");
-    assert!(message.contains("FreeUntil(0.987654321012)"), "{message}");
-    let [carried, half_width, peak] = [0.0; 3];
-    let error = ContactError::Solve(SolveError::DomainTooShort {
-        end,
-        carried,
-        load,
-        half_width,
-        peak,
-        kappa_is_default: no,
-    });
-    let message = error.to_string();
-    assert!(message.contains("touch first at their end x = 0.987654,"), "{message}");
-    assert!(message.contains("FreeUntil(0.987654321012)"), "{message}");
+    assert!(some.contains("x = 0.987654:"), "{some}");
+    assert!(some.contains("FreeUntil(0.987654321012)"), "{some}");
+    assert!(none.contains("touch first at their end x = 0.987654,"), "{none}");
+    assert!(none.contains("FreeUntil(0.987654321012)"), "{none}");
     let flats = Contact::new(&Flat, &Flat)
         .and_then(|contact| contact.solve(Control::Load(1.0)).map(|_| ()));
     let message = flats.unwrap_err().to_string();
