@@ -18,7 +18,7 @@ mod survey;
 
 pub(crate) use sample_near::{CurveSample, SampleCache, sample_near};
 pub use sampler::Sampler;
-pub(crate) use survey::{Asked, Guides, LowPoint, Survey, VAGUE, crossing};
+pub(crate) use survey::{Asked, Guides, LowPoint, MAX_NEAR_UNCERTAINTY, Survey, crossing};
 
 use crate::profile::{Convexity, Piece};
 use crate::real::same;

@@ -32,7 +32,7 @@ use panels::PanelIntegrator;
 use std::any::Any;
 
 /// Factor on the budget of a search whose quadrature keeps no samples.
-const UNKEPT: usize = 16;
+const UNCACHED_FACTOR: usize = 16;
 
 /// Number of times, beyond its budget, that a search may take all samples for a pressure.
 const MAX_PRESSURES: usize = 4096;
@@ -47,7 +47,7 @@ pub(crate) fn complete<T: Real>(
     let more = integrator.complete(gap)?;
     *cost += more;
     let pressures = more.evaluations.max(more.samples).saturating_mul(MAX_PRESSURES);
-    if pressures > 0 { gap.check_budget(*cost, UNKEPT, pressures, on) } else { Ok(()) }
+    if pressures > 0 { gap.check_budget(*cost, UNCACHED_FACTOR, pressures, on) } else { Ok(()) }
 }
 
 /// Method to integrate the slope of a gap.

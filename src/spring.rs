@@ -17,14 +17,14 @@ const MAX_POINTS: usize = 4096;
 
 /// Least distance of two points, as a share of the load: closer ones follow a kink, as where a
 /// corner is reached.
-const CLOSEST: f64 = 1e-6;
+const LEAST_STEP: f64 = 1e-6;
 
 /// Place of the second test between two points: here the error of the slopes is largest, in the
 /// middle the error of the values.
 const STEEPEST: f64 = 0.211_324_865_405_187_1;
 
 /// Safety factor on the observed errors, since they may be half of the largest.
-const MARGIN: f64 = 2.0;
+const SAFETY_FACTOR: f64 = 2.0;
 
 /// Ratio of the steepest slope to the largest value of the error of a cubic, which goes like
 /// `t² (1 - t)²`. A kink between two tests shows in the slopes.
@@ -154,10 +154,10 @@ impl<T: Real> SpringTable<T> {
             for exact in [middle, beside] {
                 let found = between(&[from, to], exact.point.approach);
                 let [of_values, of_stiffness] = difference(&exact, &found, width);
-                error = error.max(T::of(MARGIN) * of_values);
-                stiffness_error = stiffness_error.max(T::of(MARGIN) * of_stiffness);
+                error = error.max(T::of(SAFETY_FACTOR) * of_values);
+                stiffness_error = stiffness_error.max(T::of(SAFETY_FACTOR) * of_stiffness);
             }
-            let is_apart = ratio > T::one() + T::of(CLOSEST);
+            let is_apart = ratio > T::one() + T::of(LEAST_STEP);
             if error > tolerance && is_apart && table.points.len() + pending.len() < MAX_POINTS {
                 pending.extend([[middle, to], [from, middle]]);
                 continue;

@@ -69,9 +69,9 @@ pub fn control_of<L: Lift>(
             moment: lift.number("moment", moment),
             about: lift.number("about", about),
         },
-        ("centre", &[load, at], None) => Control::CentreOfPressure {
+        ("centre_of_pressure", &[load, at], None) => Control::CentreOfPressure {
             load: lift.number("load", load),
-            at: lift.number("centre", at),
+            at: lift.number("centre_of_pressure", at),
         },
         _ => return none_such("control", &(name.clone(), numbers.clone())),
     })

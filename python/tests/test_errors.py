@@ -248,8 +248,8 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"interval": (-0.5, 0.5)},
     ),
     (lambda: contact().solve(load=1.0, moment=math.nan), "InvalidMomentError", {}),
-    (lambda: solved_with_moment(search="brent"), "TiltNotSupportedError", {}),
-    (lambda: contact().solve(load=0.02, centre=0.9), "TiltNotFoundError", {"load": 0.02, "at": 0.9}),
+    (lambda: solved_with_moment(limit_search="brent"), "TiltNotSupportedError", {}),
+    (lambda: contact().solve(load=0.02, centre_of_pressure=0.9), "TiltNotFoundError", {"load": 0.02, "at": 0.9}),
     (
         lambda: contact(edges=(lc.Edge.fixed(-0.5), lc.Edge.free())).solve(peak_pressure=1.0),
         "PeakEdgeError",
@@ -359,12 +359,12 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"body": "upper", "source.quantity": "the slope Y'/X'"},
     ),
     (
-        lambda: solved(search=lc.Search("bisection", max_evaluations=3)),
+        lambda: solved(limit_search=lc.Search("bisection", max_evaluations=3)),
         "LimitSearchError",
         {"source": "SearchBudgetError", "source.best": None},
     ),
     (
-        lambda: solved(search=lc.Search("brent", relative=-1.0)),
+        lambda: solved(limit_search=lc.Search("brent", relative=-1.0)),
         "LimitSearchError",
         {"source": "SearchToleranceError", "source.value": -1.0},
     ),
@@ -561,7 +561,7 @@ def test_kinds_are_those_of_the_library() -> None:
 
 
 def test_what_is_prescribed_must_go_together() -> None:
-    wrong: list[dict[str, Any]] = [{}, {"approach": 1.0}, {"centre": 0.0}]
+    wrong: list[dict[str, Any]] = [{}, {"approach": 1.0}, {"centre_of_pressure": 0.0}]
     for given in [*wrong, {"load": 1.0, "half_width": 1.0}]:
         with pytest.raises(TypeError, match="prescribed are"):
             contact().solve(**given)
@@ -572,7 +572,7 @@ def test_what_is_prescribed_must_go_together() -> None:
         contact(edges=edges, edge_pressure=lc.EdgePressure.zero(1e-3, 1e-9))
     with pytest.raises(TypeError, match="tolerance"):
         contact(tolerance=1e-6, quadrature=lc.Midpoint())
-    misspelt: list[dict[str, Any]] = [{"plane": "strian"}, {"search": "brnt"}]
+    misspelt: list[dict[str, Any]] = [{"plane": "strian"}, {"limit_search": "brnt"}]
     for settings in misspelt:
         with pytest.raises(ValueError, match="strian|brnt"):
             material(**settings)

@@ -101,7 +101,7 @@ def test_an_eccentric_load_turns_a_parabola() -> None:
     close(found[0], [0.0, -moment / load**2, 1 / load], 1e-12)
     close(found[1], [moment / load / radius**2, moment / load**2 / radius, -1 / load / radius], 1e-12)
     # Derivative by the place of the load.
-    value, by_place = lc.gradient(contact, "tilt", "centre", load=load, centre=moment / load)
+    value, by_place = lc.gradient(contact, "tilt", "centre_of_pressure", load=load, centre_of_pressure=moment / load)
     close([value, by_place], [values[1], -1 / radius], 1e-12)
 
 
@@ -423,7 +423,7 @@ CONTROLS: list[dict[str, Any]] = [
     {"peak_pressure": 300.0},
     {"approach": 0.001, "references": BETWEEN},
     {"load": 50.0, "moment": 1.0, "about": 0.05},
-    {"load": 50.0, "centre": 0.1},
+    {"load": 50.0, "centre_of_pressure": 0.1},
 ]
 
 
@@ -463,8 +463,8 @@ def test_a_spline_is_scaled_by_its_factor() -> None:
 @pytest.mark.parametrize(
     "settings",
     [
-        {"search": "brent"},
-        {"search": "bisection", "inversion": "secant"},
+        {"limit_search": "brent"},
+        {"limit_search": "bisection", "inversion": "secant"},
         {"quadrature": lc.Midpoint()},
         {"tolerance": 1e-9},
         {"start": (-0.1, 0.1), "single_interval": True},

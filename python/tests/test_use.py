@@ -238,9 +238,9 @@ def contacts() -> list[tuple[lc.Contact, dict[str, Any]]]:
         (lc.Contact(*gear(), tolerance=1e-9), {"half_width": 0.1}),
         (lc.Contact(FLAT, lc.Curve((-2, 2), bumps), contact_modulus=1.0), {"load": 1.0}),
         (lc.Contact(FLAT, roller, **steel), {"approach": 0.01, "references": TO}),  # type: ignore[arg-type]
-        (lc.Contact(FLAT, roller, kappa=1.0, search="brent"), {"peak_pressure": 0.01}),
+        (lc.Contact(FLAT, roller, kappa=1.0, limit_search="brent"), {"peak_pressure": 0.01}),
         (lc.Contact(FLAT, BODY, quadrature=lc.Midpoint(64, 3, "even")), {"load": 0.02}),
-        (lc.Contact(FLAT, BODY, kappa=1.0), {"load": 0.02, "centre": 0.05}),
+        (lc.Contact(FLAT, BODY, kappa=1.0), {"load": 0.02, "centre_of_pressure": 0.05}),
     ]
 
 

@@ -12,10 +12,10 @@ const NARROWEST: f64 = 0.02;
 /// Distance of the points, in lengths of the narrowest feature that a user asks for. Points that
 /// miss their places by a quarter of this distance are still less than half a length apart: if one
 /// is at the top of a feature, where its slope vanishes, the next ones are not at its ends.
-const WITHIN: f64 = 0.3;
+const POINT_SPACING: f64 = 0.3;
 
 /// Least resolution, in units of rounding of x: the distance of points is then some ten of them.
-const ROUNDINGS: f64 = 32.0;
+const LEAST_RESOLUTION: f64 = 32.0;
 
 impl<T: Real> Gap<'_, T> {
     /// Returns this gap with the length of the narrowest feature to be seen. The shape of the
@@ -32,7 +32,7 @@ impl<T: Real> Gap<'_, T> {
     /// distance in widths of the narrowest feature.
     pub(crate) fn spacing(&self, half_width: T, widths: f64) -> T {
         let by_default = T::of(2.0 * widths * NARROWEST) * half_width;
-        self.resolution.map_or(by_default, |length| by_default.min(T::of(WITHIN) * length))
+        self.resolution.map_or(by_default, |length| by_default.min(T::of(POINT_SPACING) * length))
     }
 
     /// Returns the number of parts of a length that are no longer than a distance: at most `most`
@@ -49,7 +49,7 @@ impl<T: Real> Gap<'_, T> {
     /// # Errors
     /// [`InputError::InvalidResolution`].
     pub(crate) fn check_resolution(&self, x: T) -> Result<(), ContactError<T>> {
-        let least = T::of(ROUNDINGS) * T::epsilon() * x.abs();
+        let least = T::of(LEAST_RESOLUTION) * T::epsilon() * x.abs();
         match self.resolution {
             Some(resolution) if !(resolution > least && is_finite(resolution)) => {
                 Err(InputError::InvalidResolution { resolution, least }.into())

@@ -33,8 +33,8 @@ use body::Body;
 use convex::{Stretch, convex_stretches};
 pub(crate) use lows::{LowPoint, crossing};
 use panel::Panel;
-pub(crate) use probe::VAGUE;
-use series::Row;
+pub(crate) use probe::MAX_NEAR_UNCERTAINTY;
+use series::BodyPoint;
 pub(super) use series::Series;
 /// Series of either body that give approximate parameters, with the numbers of their pieces.
 pub(crate) type Guides<T> = [[Option<(usize, Series<T>)>; 2]; 2];
@@ -157,7 +157,7 @@ impl<T: Real> Survey<T> {
         for which in [Which::Lower, Which::Upper] {
             let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
             let found = body.look(surface, self.range, &mut cost.heights);
-            let found = found.and_then(|()| match body.rows.len() {
+            let found = found.and_then(|()| match body.points.len() {
                 0 => {
                     let (k, value) = (surface.piece(0).k[0], T::of(f64::NAN));
                     Err(ProfileError::NotFinite { quantity: "Y", k, value })
@@ -312,7 +312,7 @@ impl<T: Real> Survey<T> {
                 .sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Ordering::Equal));
         }
         nodes.clear();
-        nodes.reserve(2 + self.bodies.iter().map(|body| body.rows.capacity()).sum::<usize>());
+        nodes.reserve(2 + self.bodies.iter().map(|body| body.points.capacity()).sum::<usize>());
         let [first, last] = self.range;
         let (mut next, mut fresh, mut known) = ([0; 2], [0; 2], 0);
         let mut x = first;
@@ -321,8 +321,8 @@ impl<T: Real> Survey<T> {
             let mut own = [&[][..]; 2];
             for (i, body) in self.bodies.iter().enumerate() {
                 let start = next[i];
-                advance(&mut next[i], &body.rows, |row| row.x <= x);
-                own[i] = &body.rows[start..next[i]];
+                advance(&mut next[i], &body.points, |row| row.x <= x);
+                own[i] = &body.points[start..next[i]];
                 advance(&mut fresh[i], &body.fresh, |span| span[1] < x);
                 is_fresh |= body.fresh.get(fresh[i]).is_some_and(|span| span[0] <= x);
             }
@@ -335,7 +335,7 @@ impl<T: Real> Survey<T> {
             if x >= last {
                 break;
             }
-            let beyond = [0, 1].map(|i| self.bodies[i].rows.get(next[i]).map_or(last, |row| row.x));
+            let beyond = [0, 1].map(|i| self.bodies[i].points.get(next[i]).map_or(last, |at| at.x));
             x = beyond[0].min(beyond[1]).min(last);
         }
         let mut panels = [[0; 2]; 2];
@@ -372,7 +372,7 @@ fn advance<I>(index: &mut usize, items: &[I], is_before: impl Fn(&I) -> bool) {
 }
 
 /// Makes a node of both bodies at x, on its left and on its right.
-fn node<T: Real>([lower, upper]: [[Row<T>; 2]; 2], x: T) -> Node<T> {
+fn node<T: Real>([lower, upper]: [[BodyPoint<T>; 2]; 2], x: T) -> Node<T> {
     Node {
         x,
         height: upper[1].y - lower[1].y,
@@ -394,7 +394,7 @@ fn hull_in<T: Real>(spans: &[[T; 2]], panel: &Panel<T>) -> Option<[T; 2]> {
 }
 
 /// Returns a body at x, on its left and on its right, given its points up to x.
-fn at<T: Real>(body: &Body<T>, x: T, own: &[Row<T>]) -> [Row<T>; 2] {
+fn at<T: Real>(body: &Body<T>, x: T, own: &[BodyPoint<T>]) -> [BodyPoint<T>; 2] {
     let mut found = [None; 2];
     for row in own.iter().rev().take_while(|row| row.x == x) {
         found = [Some(*row), found[1].or(Some(*row))];

@@ -37,7 +37,7 @@ macro_rules! by_size {
 pub(crate) use by_size;
 
 /// Coefficients or values of a panel, one for each of its nodes.
-pub(crate) type Row<T> = [T; MAX_SIZE];
+pub(crate) type Coeffs<T> = [T; MAX_SIZE];
 
 /// Zeros of `T_n`, and the transform from values there to coefficients.
 #[derive(Default)]
@@ -254,8 +254,8 @@ pub(crate) fn power_series<T: Real>(coefficients: &[T], u: T) -> T {
     while power > last && terms < coefficients.len() {
         (power, terms) = (power * power, 2 * terms);
     }
-    let counting = &coefficients[..terms.min(coefficients.len())];
-    counting.iter().rev().fold(T::zero(), |sum, &a| sum * u + a)
+    let length = &coefficients[..terms.min(coefficients.len())];
+    length.iter().rev().fold(T::zero(), |sum, &a| sum * u + a)
 }
 
 /// Number of coefficients treated together; [`MAX_SIZE`] is a multiple of it.
@@ -266,14 +266,14 @@ const ABREAST: usize = 4;
 ///
 /// Clenshaw's recurrence for `s = middle + reach t`. Each of its numbers is itself a series in t,
 /// one term longer than the one before: `t T_k = (T_{k+1} + T_{k-1})/2`.
-pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Row<T> {
+pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Coeffs<T> {
     let mut row = [T::zero(); MAX_SIZE];
     expand_to(&mut row, coefficients, [left, right]);
     row
 }
 
 /// Writes the result of [`expand`] into a given row.
-pub(crate) fn expand_to<T: Real>(row: &mut Row<T>, coefficients: &[T], [left, right]: [T; 2]) {
+pub(crate) fn expand_to<T: Real>(row: &mut Coeffs<T>, coefficients: &[T], [left, right]: [T; 2]) {
     let half = T::of(0.5);
     let (middle, reach) = (half * (left + right), half * (right - left));
     let [last, others @ ..] = coefficients else { return };

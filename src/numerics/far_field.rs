@@ -6,20 +6,20 @@
 //! and all others through the series of its node. For N intervals and places, the series cost
 //! O(N log N) contributions.
 
-use super::chebyshev::{MAX_SIZE, Row, Table, by_size, value_at};
+use super::chebyshev::{Coeffs, MAX_SIZE, Table, by_size, value_at};
 use crate::{Interval, Real};
 use std::ops::Range;
 
 /// Least distance of a far interval, as a share of the length of the places: its singularities lie
 /// at 2.5 half-lengths from the middle, so that coefficient n of a contribution falls as 4.79⁻ⁿ.
-const FAR: f64 = 0.75;
+const FAR_DISTANCE: f64 = 0.75;
 
 /// Numbers of coefficients that leave rounding: 4.79⁻²⁴ and 4.79⁻¹².
 const COEFFICIENTS: usize = 24;
 const COEFFICIENTS_F32: usize = 12;
 
 /// Smallest number of far intervals that make a series worth its cost.
-const ENOUGH: usize = 3;
+const LEAST_FAR: usize = 3;
 
 /// Way in which contributions make up the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +60,7 @@ struct Node<T> {
     /// Numbers of the intervals that are not in the series.
     near: Range<usize>,
     places: Interval<T>,
-    series: Row<T>,
+    series: Coeffs<T>,
     /// Number of coefficients; 0 if nothing is far.
     terms: usize,
 }
@@ -94,7 +94,7 @@ impl<T: Real> FarField<T> {
         let nowhere = Interval { left: T::zero(), right: T::zero() };
         self.nodes.push(Node { near, places: nowhere, series, terms: 0 });
         // A place has some interval near.
-        if intervals.len() <= ENOUGH {
+        if intervals.len() <= LEAST_FAR {
             self.of.extend(places.map(|_| 0));
             return;
         }
@@ -115,7 +115,7 @@ impl<T: Real> FarField<T> {
     ) {
         let hull = Interval { left: places[0].left, right: places[places.len() - 1].right };
         let mut near = self.nodes[above].near.clone();
-        let apart = T::of(FAR) * (hull.right - hull.left);
+        let apart = T::of(FAR_DISTANCE) * (hull.right - hull.left);
         while !near.is_empty() && hull.left - intervals[near.start].right >= apart {
             near.start += 1;
         }
@@ -123,7 +123,7 @@ impl<T: Real> FarField<T> {
             near.end -= 1;
         }
         let mut number = above;
-        if self.nodes[above].near.len() - near.len() >= ENOUGH {
+        if self.nodes[above].near.len() - near.len() >= LEAST_FAR {
             number = self.nodes.len();
             let node = self.node(near, hull, above, contribution);
             self.nodes.push(node);

@@ -56,7 +56,7 @@ type Check<T> = for<'a> fn(&'a dyn ParametricProfile<T>) -> Result<Scanned<'a, T
 
 /// Rounding of `X`, and default tolerance of a joint, in units in the last place of the extent or
 /// of the distance from 0: a few sums and products, each off by half a unit.
-const UNITS: f64 = 64.0;
+const JOINT_ROUNDING: f64 = 64.0;
 
 impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
     /// Joins pieces, left to right, that meet to within rounding: 64 units in the last place of the
@@ -68,7 +68,7 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
     /// [`PiecewiseError::Overlap`], [`PiecewiseError::Jump`] at a breakpoint;
     /// [`PiecewiseError::NoPieces`].
     pub fn new(parts: Vec<P>) -> Result<Self, PiecewiseError<T>> {
-        Self::with_tolerance(parts, T::of(UNITS) * T::epsilon())
+        Self::with_tolerance(parts, T::of(JOINT_ROUNDING) * T::epsilon())
     }
 
     /// Joins pieces as [`new`](Self::new) does, if they meet only to within `tolerance` times the
@@ -193,7 +193,7 @@ impl<'p, T: Real> Scan<'p, T> {
         after.check_heights(breakpoint + 1)?;
         let jump = (right.y - left.y).abs();
         let steep = before.steepness[1] * before.extents[0] + after.steepness[0] * after.extents[0];
-        let rounding = tolerance.min(T::of(UNITS) * T::epsilon());
+        let rounding = tolerance.min(T::of(JOINT_ROUNDING) * T::epsilon());
         if jump > tolerance * height + rounding * steep {
             let (x, left, right) = (left.x, left.y, right.y);
             return Err(PiecewiseError::Jump { breakpoint, x, left, right });

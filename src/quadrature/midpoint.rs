@@ -28,7 +28,7 @@
 mod level;
 mod moments;
 
-use super::{Estimate, Integrator, LoadCase, Moments, Quadrature, UNKEPT};
+use super::{Estimate, Integrator, LoadCase, Moments, Quadrature, UNCACHED_FACTOR};
 use crate::gap::{Cost, Gap, Sampler};
 use crate::{ContactError, InputError, Interval, Real, Side};
 use level::{Level, Pole};
@@ -161,7 +161,7 @@ impl<T: Real> Integrator<T> for MidpointIntegrator<T> {
         gap: &Gap<'_, T>,
         on: Interval<T>,
     ) -> Result<Moments<T>, ContactError<T>> {
-        gap.check_budget(self.sampler.cost, UNKEPT, 0, on)?;
+        gap.check_budget(self.sampler.cost, UNCACHED_FACTOR, 0, on)?;
         let m = moments(&mut self.sampler, gap, on)?;
         self.moments = Some((on, m.error));
         Ok(m)

@@ -27,7 +27,7 @@ use series_bounds::extremes;
 const MAX_EVALUATIONS: usize = 1 << 20;
 
 /// Largest length of a cell as a share of the bodies' range; each has eight nodes or more.
-const SHARE: f64 = 1.0 / 400.0;
+const LONGEST_CELL: f64 = 1.0 / 400.0;
 
 /// Length of a cell in widths of the narrowest feature that is sure to be seen in it.
 const WIDTHS: f64 = 4.0;
@@ -104,7 +104,7 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     let within = |on: &Interval<T>| Interval { left: on.left.max(from), right: on.right.min(to) };
     let contacts: Vec<_> = solved.contacts().iter().map(within).collect();
 
-    let by_default = (ends.right - ends.left) * T::of(SHARE);
+    let by_default = (ends.right - ends.left) * T::of(LONGEST_CELL);
     let spacing = gap.resolution().map_or(by_default, |w| by_default.min(T::of(WIDTHS) * w));
     let mut cells = Cells::new(gap, spacing);
     let (mut rows, mut slopes, mut doubt) = (Vec::new(), Vec::new(), T::zero());

@@ -43,7 +43,7 @@ const CELLS_OF_A_RUN: usize = 4;
 
 /// Mean depth of the gap of a round contact below the level of its edges, in units of F/κ: two
 /// thirds of `κ h(L)/F`, which is one.
-const ABOVE: f64 = 2.0 / 3.0;
+const MEAN_DEPTH: f64 = 2.0 / 3.0;
 
 /// Updates of the set of loaded cells before the search is given up.
 const MAX_CHANGES: usize = 400;
@@ -237,7 +237,7 @@ impl<T: Real> ActiveSet<T> {
     }
 
     /// Loads cells to start with, as if each yielded independently: those below a line on which the
-    /// load acts at its place. The level of the line by [`ABOVE`] is right for one round contact.
+    /// load acts at its place. The line's level by [`MEAN_DEPTH`] is right for one round contact.
     fn rest(&mut self) {
         let lowest = self.lowest().map_or(T::zero(), |lowest| self.cells[lowest].height);
         let arms: Vec<T> = self.cells.iter().map(|cell| self.arm(cell.centre())).collect();
@@ -249,7 +249,7 @@ impl<T: Real> ActiveSet<T> {
             let [on, above]: [Vec<T>; 2] =
                 [&arms, &rises].map(|of| loaded.iter().map(|&i| of[i]).collect());
             let runs = 1 + loaded.windows(2).filter(|pair| pair[0] + 1 < pair[1]).count();
-            let excess = T::of(ABOVE) * T::count(loaded.len()) / T::count(runs);
+            let excess = T::of(MEAN_DEPTH) * T::count(loaded.len()) / T::count(runs);
             let [level, slope] = line(&on, [sum(&above) + excess, dot(&on, &above)]);
             let is_below =
                 |i: usize| rises[i] < level + slope * arms[i] || i == first || i == second;

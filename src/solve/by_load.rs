@@ -30,13 +30,13 @@ const MAX_LOADS: usize = 100;
 
 /// First load for an approach, as a share of `κ δ`: a contact a millionth as wide as the bodies
 /// needs a twentieth.
-const FIRST: f64 = 0.05;
+const FIRST_LOAD: f64 = 0.05;
 
 /// Largest factor between the loads of two trials.
 const MAX_STEP: f64 = 1e3;
 
 /// Largest factor between a load and the first one while the load is not enclosed.
-const FARTHEST: f64 = 1e12;
+const MAX_FACTOR: f64 = 1e12;
 
 /// Quantity that is given instead of the load.
 #[derive(Clone, Copy)]
@@ -165,7 +165,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
             enclosure.add([load, value], self.wanted);
             load = enclosure.inside(self.next(load, [value, rate]));
             let is_known = enclosure.low.is_some() && enclosure.high.is_some();
-            let is_far = load > first * T::of(FARTHEST) || load < first / T::of(FARTHEST);
+            let is_far = load > first * T::of(MAX_FACTOR) || load < first / T::of(MAX_FACTOR);
             if enclosure.is_closed() || !is_known && is_far {
                 return Err(self.none(&enclosure, fault));
             }
@@ -185,7 +185,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
         let half_width = known.map_or(sixty_fourth, |on| on.half_width());
         let hertz = T::frac_pi_2() * wanted * half_width;
         let asked = match self.quantity {
-            Quantity::Approach { .. } => return Ok(T::of(FIRST) * kappa * wanted),
+            Quantity::Approach { .. } => return Ok(T::of(FIRST_LOAD) * kappa * wanted),
             Quantity::HalfWidth => Asked::HalfWidth(wanted),
             Quantity::Peak => {
                 if known.is_some() || gap.is_convex() {

@@ -15,14 +15,14 @@ use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
 
 /// Relative tolerance of the samples until the largest contact is bracketed: the whole of the
 /// bodies may be hard to sample, and only the direction of the shift counts.
-const ROUGH: f64 = 3e-2;
+const ROUGH_TOLERANCE: f64 = 3e-2;
 
 /// Least imbalance of a roughly sampled contact, as a share of its load, that makes its sign
 /// certain.
-const SURE: f64 = 0.1;
+const SURE_IMBALANCE: f64 = 0.1;
 
 /// Factor by which contacts at the end become narrower until one is too narrow.
-const NARROWER: f64 = 8.0;
+const NARROWING_FACTOR: f64 = 8.0;
 
 /// Largest number of such steps: enough from the largest number to the smallest.
 const MAX_WIDTHS: usize = 700;
@@ -82,7 +82,7 @@ pub(super) fn capacity<T: Real>(
 ) -> Option<Capacity<T>> {
     let Ends { left, right } = ends;
     let mut integrator = Panels::FULL.integrator().ok()?;
-    let mut rough = Panels { tolerance: ROUGH }.integrator().ok()?;
+    let mut rough = Panels { tolerance: ROUGH_TOLERANCE }.integrator().ok()?;
     let fixed = conditions.limits();
     let equations = Equations::Strength { conditions: *conditions, load: T::zero() };
     let (full, rough) = (&mut *integrator, &mut *rough);
@@ -118,7 +118,7 @@ struct Pinned<'s, T: Real> {
     contact: &'s Contact<'s, T>,
     equations: Equations<T>,
     full: &'s mut dyn Integrator<T>,
-    /// Integrator that samples to within [`ROUGH`].
+    /// Integrator that samples to within [`ROUGH_TOLERANCE`].
     rough: &'s mut dyn Integrator<T>,
 }
 
@@ -144,7 +144,7 @@ impl<T: Real> Pinned<'_, T> {
         };
         let (mut wide, mut at_wide, mut width) = (whole[side.other()], at_whole, right - left);
         for _ in 0..MAX_WIDTHS {
-            width /= T::of(NARROWER);
+            width /= T::of(NARROWING_FACTOR);
             let narrow = match side {
                 Side::Left => left + width,
                 Side::Right => right - width,
@@ -170,7 +170,7 @@ impl<T: Real> Pinned<'_, T> {
     /// make its sign certain, only the sign is exact.
     fn rough_shift(&mut self, on: Interval<T>) -> Option<T> {
         let rough = residual(self.contact, &self.equations, self.rough, on).filter(|rough| {
-            rough.shift().abs() > (T::of(SURE) + T::of(16.0) * rough.error) * rough.size
+            rough.shift().abs() > (T::of(SURE_IMBALANCE) + T::of(16.0) * rough.error) * rough.size
         });
         rough.map(|rough| rough.shift()).or_else(|| self.shift(on))
     }
@@ -189,7 +189,7 @@ fn residual<T: Real>(
 ) -> Option<Residual<T>> {
     // Panels much wider than a contact would miss narrow features in it.
     let covered = integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
-    if covered > T::of(2.0 * NARROWER) * on.half_width() {
+    if covered > T::of(2.0 * NARROWING_FACTOR) * on.half_width() {
         integrator.clear_samples();
     }
     let residual = equations.residual(&contact.gap, on, integrator, &mut Cost::default()).ok()?;

@@ -15,7 +15,7 @@ use crate::{ContactError, InputError, Interval, Real, SolveError};
 const MAX_HALVES: usize = 14;
 
 /// Share of the bodies left beyond a contact that cannot be moved any further.
-const AT_END: f64 = 0.01;
+const LEAST_LEFT: f64 = 0.01;
 
 /// Line of action of a load.
 #[derive(Clone, Copy)]
@@ -127,7 +127,7 @@ fn nearest<T: Real>(
     }
     let ContactState { tilt, interval: Interval { left, right }, .. } = found;
     let room = (left - ends.left).min(ends.right - right);
-    let is_at_end = room <= T::of(AT_END) * (ends.right - ends.left);
+    let is_at_end = room <= T::of(LEAST_LEFT) * (ends.right - ends.left);
     is_at_end.then_some(ContactError::Solve(SolveError::TiltNotFound {
         load,
         at,

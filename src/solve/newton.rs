@@ -30,11 +30,11 @@ pub(super) enum Stop<T> {
 }
 
 /// Longest step, as a share of a half-width, that predicts the next one.
-const TELLING: f64 = 0.25;
+const MAX_PREDICTING_STEP: f64 = 0.25;
 
 /// Least ratio of a step to the one before at which rounding is taken to keep the steps from
 /// shrinking.
-const STALLED: f64 = 0.25;
+const STALL_RATIO: f64 = 0.25;
 
 /// Steps of a search, which predict the next one: their sizes fall quadratically.
 #[derive(Clone, Copy)]
@@ -72,17 +72,17 @@ impl<T: Real> Progress<T> {
             _ => sizes[i],
         });
         let rounding = T::of(0.5) * T::epsilon();
-        let stalls = |[one, other]: [T; 2]| size >= T::of(STALLED) * (one + other);
+        let stalls = |[one, other]: [T; 2]| size >= T::of(STALL_RATIO) * (one + other);
         Judged {
             next,
-            is_done: next[0] + next[1] <= rounding && size <= T::of(TELLING),
+            is_done: next[0] + next[1] <= rounding && size <= T::of(MAX_PREDICTING_STEP),
             is_stalled: self.before.is_some_and(stalls),
         }
     }
 
     /// Records the sizes of a step.
     pub fn note(&mut self, sizes: [T; 2]) {
-        self.before = Some(sizes).filter(|&[one, other]| one + other <= T::of(TELLING));
+        self.before = Some(sizes).filter(|&[one, other]| one + other <= T::of(MAX_PREDICTING_STEP));
     }
 }
 

@@ -36,7 +36,7 @@ use derivatives::differentiate;
 
 /// Largest ratio of the width of the panels to that of a contact tried on them: a tip of the bodies
 /// that is as much narrower would fall between the nodes.
-const WIDEST: f64 = 16.0;
+const MAX_WIDTH_RATIO: f64 = 16.0;
 
 /// Contacts tried side by side for one that is pulled away from the point of first contact. (A
 /// parabola that is pulled at one edge presses at the other up to two half-widths away.)
@@ -198,7 +198,7 @@ impl<'s, T: Real> NestedSearch<'s, T> {
         // Panels much wider than the contact are less accurate than they seem.
         let covered =
             self.integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
-        if covered > T::of(WIDEST) * on.half_width() {
+        if covered > T::of(MAX_WIDTH_RATIO) * on.half_width() {
             self.integrator.clear_samples();
         }
         let residual = self.equations.residual(self.gap, on, self.integrator, self.cost)?;

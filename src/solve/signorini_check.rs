@@ -30,7 +30,7 @@ const MAX_DOUBTFUL: usize = 256;
 const MAX_POINTS: usize = 4096;
 
 /// Least distance of such a place from a limit, in units of rounding of the contact.
-const FROM_LIMIT: f64 = 8.0;
+const LEAST_DISTANCE: f64 = 8.0;
 
 /// Number of places between a tension and the end of the contact at which the pressure is
 /// evaluated: enough to halve the distance down to rounding.
@@ -114,7 +114,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let mut is_finer = false;
         // The outermost of N places is `L (π/N)²/8` from a limit.
         let is_apart = |count: usize| {
-            (T::pi() / T::count(count)).powi(2) >= T::of(8.0 * FROM_LIMIT) * T::epsilon()
+            (T::pi() / T::count(count)).powi(2) >= T::of(8.0 * LEAST_DISTANCE) * T::epsilon()
         };
         for field in &mut fields.each {
             let mut count = field.coefficients().len();

@@ -39,7 +39,7 @@ const MAX_AT_END: [usize; 2] = [2, 24];
 
 /// Uncertainty of a contact that is about right, and margin sampled beyond it, as a share of its
 /// width.
-const ABOUT: f64 = 0.02;
+const ROUGH_UNCERTAINTY: f64 = 0.02;
 
 /// Search for the contact of the bodies as one interval.
 pub(super) struct Single<'s, 'b, T: Real> {
@@ -207,7 +207,7 @@ impl<T: Real> Single<'_, '_, T> {
                     return Ok(Some(converged));
                 }
             }
-            if let Some(converged) = known(self.in_full(last, T::of(ABOUT)))? {
+            if let Some(converged) = known(self.in_full(last, T::of(ROUGH_UNCERTAINTY)))? {
                 return Ok(Some(converged));
             }
             // The last contact was no help.
@@ -218,7 +218,7 @@ impl<T: Real> Single<'_, '_, T> {
         }
         let (guess, doubt) = match self.initial_guess()? {
             Some(guess) => guess,
-            None => (self.start(), T::of(ABOUT)),
+            None => (self.start(), T::of(ROUGH_UNCERTAINTY)),
         };
         self.in_full(guess, doubt)
     }
@@ -290,7 +290,7 @@ impl<T: Real> Single<'_, '_, T> {
             within && on.half_width() >= T::of(0.3) * covered.half_width()
         };
         if !self.integrator.sampled_interval().is_some_and(serves) {
-            self.integrator.sample_over(gap, self.around(on, T::of(ABOUT)), false)?;
+            self.integrator.sample_over(gap, self.around(on, T::of(ROUGH_UNCERTAINTY)), false)?;
         }
         let m = self.integrator.moments(gap, on)?;
         let conditions = &self.conditions;
@@ -337,7 +337,7 @@ impl<T: Real> Single<'_, '_, T> {
         let gap = &self.contact.gap;
         let (mut guess, mut best) = (guess.plain(), None);
         for _ in 0..3 {
-            let span = self.around(guess, T::of(ABOUT) + doubt);
+            let span = self.around(guess, T::of(ROUGH_UNCERTAINTY) + doubt);
             if self.integrator.sample_over(gap, span, false)?.is_none() {
                 return Ok(None);
             }

@@ -58,7 +58,9 @@ fn body() -> Profile {
 /// Any error of the crate.
 #[derive(Debug)]
 enum Wrong {
-    Contact(ContactError<f64>),
+    Input(InputError<f64>),
+    Solve(SolveError<f64>),
+    Evaluation(EvaluationError<f64>),
     Search(SearchError<f64>),
     Profile(ProfileError<f64>),
     Breakpoint(PiecewiseError<f64>),
@@ -74,12 +76,17 @@ macro_rules! from {
     )*};
 }
 
-from!(
-    Contact(ContactError),
-    Search(SearchError),
-    Profile(ProfileError),
-    Breakpoint(PiecewiseError)
-);
+from!(Search(SearchError), Profile(ProfileError), Breakpoint(PiecewiseError));
+
+impl From<ContactError<f64>> for Wrong {
+    fn from(error: ContactError<f64>) -> Self {
+        match error {
+            ContactError::Input(error) => Self::Input(error),
+            ContactError::Solve(error) => Self::Solve(error),
+            ContactError::Evaluation(error) => Self::Evaluation(error),
+        }
+    }
+}
 
 type Outcome = Result<String, Wrong>;
 
@@ -146,7 +153,9 @@ impl Table {
 
 fn message(wrong: &Wrong) -> String {
     match wrong {
-        Wrong::Contact(error) => error.to_string(),
+        Wrong::Input(error) => error.to_string(),
+        Wrong::Solve(error) => error.to_string(),
+        Wrong::Evaluation(error) => error.to_string(),
         Wrong::Search(error) => error.to_string(),
         Wrong::Profile(error) => error.to_string(),
         Wrong::Breakpoint(error) => error.to_string(),
@@ -159,8 +168,8 @@ fn same(one: f64, other: f64) -> bool {
 }
 
 macro_rules! contact_error {
-    ($pattern:pat $(if $guard:expr)?) => {
-        |wrong: &Wrong| matches!(wrong, Wrong::Contact($pattern) $(if $guard)?)
+    (ContactError::$kind:ident($pattern:pat) $(if $guard:expr)?) => {
+        |wrong: &Wrong| matches!(wrong, Wrong::$kind($pattern) $(if $guard)?)
     };
 }
 use contact_error;

@@ -229,7 +229,11 @@ fn slight_bumps_between_the_nodes_are_not_certified() {
         let contact = Contact::new(&Flat, &*body).unwrap();
         let certificate = contact.solve(Control::Load(0.08)).unwrap().certify();
         assert!(
-            matches!(certificate, Err(ContactError::Solve(SolveError::FeatureMissed { x, .. })) if (x - at).abs() < width),
+            matches!(
+                certificate,
+                Err(ContactError::Solve(SolveError::FeatureMissed { x, .. }))
+                    if (x - at).abs() < width
+            ),
             "{scene}: {size:e} at {at}, {width}: {certificate:?}"
         );
     }

@@ -270,7 +270,7 @@ class Search(NamedTuple):
     --------
     >>> import linecontact as lc
     >>> body = lc.Parabola(1.0, (-1.0, 1.0))
-    >>> brent = lc.Contact(lc.Flat(), body, kappa=1.0, search=lc.Search("brent"))
+    >>> brent = lc.Contact(lc.Flat(), body, kappa=1.0, limit_search=lc.Search("brent"))
     >>> round(brent.solve(load=0.02).a, 12)
     0.2
     """
@@ -355,7 +355,7 @@ class Prescribed(TypedDict, total=False):
     references: References
     moment: float
     about: float
-    centre: float
+    centre_of_pressure: float
 
 
 class Settings(TypedDict, total=False):
@@ -368,7 +368,7 @@ class Settings(TypedDict, total=False):
     edges: tuple[Edge, Edge] | None
     edge_pressure: EdgePressure | None
     start: Sequence[float] | None
-    search: Search | str | None
+    limit_search: Search | str | None
     inversion: Search | str | None
     quadrature: Panels | Midpoint | None
     tolerance: float | None
@@ -385,7 +385,7 @@ _CONTROLS: dict[frozenset[str], tuple[str, tuple[str, ...]]] = {
     frozenset({"approach"}): ("approach", ("approach",)),
     frozenset({"load", "moment"}): ("moment", ("load", "moment", "about")),
     frozenset({"load", "moment", "about"}): ("moment", ("load", "moment", "about")),
-    frozenset({"load", "centre"}): ("centre", ("load", "centre")),
+    frozenset({"load", "centre_of_pressure"}): ("centre_of_pressure", ("load", "centre_of_pressure")),
 }
 
 
@@ -402,7 +402,7 @@ def _control(
     if found is None or (found[0] == "approach" and references is None):
         raise TypeError(
             f"prescribed are {', '.join(given) or 'no numbers'}: give load, half_width, peak_pressure, approach with "
-            "references, load with moment (and about), or load with centre"
+            "references, load with moment (and about), or load with centre_of_pressure"
         )
     kind, names = found
     return kind, [given.get(name, 0.0) for name in names]
@@ -443,7 +443,7 @@ class Contact(Unchanging):
         Prescribed pressures near the edges, the paper's Eq. (6), in place of `edges`.
     start : (float, float), optional
         Interval from -b to a from which the search for the limits starts: lengths.
-    search : Search or str, optional
+    limit_search : Search or str, optional
         Strategy that adjusts the limits, one at a time, in place of Newton's method on both.
     inversion : Search or str, optional
         Strategy that inverts `X(k) = x`. Default: Newton's method.
@@ -490,7 +490,7 @@ class Contact(Unchanging):
         edges: tuple[Edge, Edge] | None = None,
         edge_pressure: EdgePressure | None = None,
         start: Sequence[float] | None = None,
-        search: Search | str | None = None,
+        limit_search: Search | str | None = None,
         inversion: Search | str | None = None,
         quadrature: Panels | Midpoint | None = None,
         tolerance: float | None = None,
@@ -520,7 +520,7 @@ class Contact(Unchanging):
             "edges": edges,
             "edge_pressure": edge_pressure,
             "start": None if start is None else as_range(start, "start"),
-            "search": search,
+            "limit_search": limit_search,
             "inversion": inversion,
             "quadrature": quadrature,
             "resolution": None if resolution is None else as_number(resolution, "resolution"),
@@ -537,7 +537,7 @@ class Contact(Unchanging):
             edge_pressure=edge_pressure,
             start=self._settings["start"],
             inversion=_search(inversion),
-            limit_search=_search(search),
+            limit_search=_search(limit_search),
             quadrature=_quadrature(quadrature),
             resolution=self._settings["resolution"],
             certified=certified,
@@ -584,7 +584,7 @@ class Contact(Unchanging):
         references: References | None = None,
         moment: float | None = None,
         about: float | None = None,
-        centre: float | None = None,
+        centre_of_pressure: float | None = None,
     ) -> Solution:
         """Finds the contact under the prescribed quantities.
 
@@ -607,7 +607,7 @@ class Contact(Unchanging):
             tilted so that the pressures have this moment.
         about : float
             The x about which the moment acts: a length, 0 by default.
-        centre : float
+        centre_of_pressure : float
             The x at which the load acts, together with a load, in place of a moment: a length.
 
         Returns
@@ -634,7 +634,7 @@ class Contact(Unchanging):
             references=references,
             moment=moment,
             about=about,
-            centre=centre,
+            centre_of_pressure=centre_of_pressure,
         )
         return Solution(self._scene.solve(prescribed), self, prescribed)
 

@@ -4,7 +4,7 @@ use super::check::check;
 use super::hull_in;
 use super::panel::{Missed, Panel, missed_by};
 use super::segment::Segment;
-use super::series::{NODES, POINTS, Row, Series};
+use super::series::{BodyPoint, NODES, POINTS, Series};
 use crate::gap::Surface;
 use crate::numerics::chebyshev::Table;
 use crate::{CurvePoint, ProfileError, Real, Side};
@@ -26,10 +26,10 @@ const MAX_WINDOWS: usize = 8;
 const MAX_SERIES: usize = 1 << 15;
 
 /// Largest share of a panel that is cut out of it as a window; for a larger share it is halved.
-const WINDOW: f64 = 0.25;
+const LARGEST_WINDOW: f64 = 0.25;
 
 /// Margins of a window, as shares of it and of the panel: the error of X(k) = x by a series.
-const MARGIN: f64 = 0.25;
+const WINDOW_MARGIN: f64 = 0.25;
 const LEAST_MARGIN: f64 = 5e-4;
 
 /// Body as far as it is known.
@@ -38,7 +38,7 @@ pub(super) struct Body<T> {
     pub panels: Vec<Panel<T>>,
     pub series: Vec<Series<T>>,
     /// Points inside the common range and the ends of pieces, by rising x.
-    pub rows: Vec<Row<T>>,
+    pub points: Vec<BodyPoint<T>>,
     /// Spans of x of the panels that are new since the points of both bodies were last joined.
     pub fresh: Vec<[T; 2]>,
     /// Points of the curve that a series has missed.
@@ -65,8 +65,8 @@ impl<T: Real> Body<T> {
             panels: Vec::new(),
             wanted: Vec::new(),
         };
-        let (panels, series, rows) = (Vec::new(), Vec::new(), Vec::new());
-        Self { panels, series, rows, fresh: Vec::new(), missed: Vec::new(), scratch }
+        let (panels, series, points) = (Vec::new(), Vec::new(), Vec::new());
+        Self { panels, series, points, fresh: Vec::new(), missed: Vec::new(), scratch }
     }
 
     /// Takes a first look at a surface, over the range of x that both bodies cover.
@@ -95,9 +95,9 @@ impl<T: Real> Body<T> {
         }
         self.fresh.clear();
         self.fresh.push(range);
-        self.rows.clear();
+        self.points.clear();
         // Room to halve each panel once.
-        self.rows.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
+        self.points.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
         if is_again {
             self.make_room();
         }
@@ -106,7 +106,7 @@ impl<T: Real> Body<T> {
         let is_long = |panel: &Panel<T>| {
             let [from, to] = panel.x();
             let is_known = panel.series.is_some() && panel.doubt.is_finite();
-            is_known && to - from > (range[1] - range[0]) / T::of(WINDOW)
+            is_known && to - from > (range[1] - range[0]) / T::of(LARGEST_WINDOW)
         };
         for _ in 0..MAX_WINDOWS {
             if !self.refine(surface, range, &[range], is_long, heights)? {
@@ -119,7 +119,7 @@ impl<T: Real> Body<T> {
     /// Makes room for each panel to be refined several times: bodies that move allocate nothing.
     fn make_room(&mut self) {
         let few = MAX_PARTS * self.panels.len().min(FEW_PIECES);
-        self.rows.reserve((NODES + 2) * few);
+        self.points.reserve((NODES + 2) * few);
         self.series.reserve(few);
         self.missed.reserve(few);
         self.panels.reserve(few);
@@ -197,9 +197,9 @@ impl<T: Real> Body<T> {
     fn window(&self, panel: &Panel<T>, series: &Series<T>, hull: [T; 2]) -> Option<[T; 2]> {
         let [start, end] = panel.k.map(|k| series.t(k));
         let [left, right] = hull.map(|x| series.parameter(x));
-        let margin = T::of(MARGIN) * (right - left) + T::of(LEAST_MARGIN) * (end - start);
+        let margin = T::of(WINDOW_MARGIN) * (right - left) + T::of(LEAST_MARGIN) * (end - start);
         let cuts = [(left - margin).max(start), (right + margin).min(end)];
-        let is_short = cuts[1] - cuts[0] <= T::of(WINDOW) * (end - start);
+        let is_short = cuts[1] - cuts[0] <= T::of(LARGEST_WINDOW) * (end - start);
         (series.doubt.is_finite() && is_short).then_some(cuts)
     }
 
@@ -215,7 +215,7 @@ impl<T: Real> Body<T> {
             let series = &self.series[number];
             let ([x, y, slope], [from, to]) = (series.at_t(t), rest.x());
             let x = if x > from && x < to { x } else { half * (from + to) };
-            let at = Row { x, y, slope, doubt: T::zero() };
+            let at = BodyPoint { x, y, slope, doubt: T::zero() };
             let mut part = rest;
             (part.k[1], part.ends[1], part.is_inside[1]) = (series.k(t), at, true);
             (rest.k[0], rest.ends[0], rest.is_inside[0]) = (part.k[1], at, true);
@@ -314,14 +314,14 @@ impl<T: Real> Body<T> {
         let from = inner(&self.series, &left).last().map_or(left.ends[0].x, |row| row.x);
         let to = inner(&self.series, &right).first().map_or(right.ends[1].x, |row| row.x);
         let x = if x >= from && x <= to { x } else { T::of(0.5) * from + T::of(0.5) * to };
-        let end = Row { x, y, slope, doubt: T::zero() };
+        let end = BodyPoint { x, y, slope, doubt: T::zero() };
         (self.panels[before].ends[1], self.panels[i].ends[0]) = (end, end);
     }
 
     /// Lists all points by rising x.
     fn list(&mut self, [first, last]: [T; 2]) {
         self.panels.retain(|panel| panel.ends[1].x >= first && panel.ends[0].x <= last);
-        self.rows.clear();
+        self.points.clear();
         for panel in &self.panels {
             let inner = inner(&self.series, panel);
             let [start, end] = [0, 1].map(|i| (!panel.is_inside[i]).then_some(panel.ends[i]));
@@ -330,7 +330,7 @@ impl<T: Real> Body<T> {
             for &row in start.iter().chain(inner).chain(&end) {
                 if row.x.is_finite() && row.y.is_finite() && reached.is_none_or(|x| row.x > x) {
                     reached = Some(row.x);
-                    self.rows.push(row);
+                    self.points.push(row);
                 }
             }
         }
@@ -346,25 +346,25 @@ impl<T: Real> Body<T> {
 
     /// Returns height and slope at x by the series of a panel; where the series is useless, by the
     /// points around.
-    pub fn at(&self, number: usize, x: T) -> Row<T> {
+    pub fn at(&self, number: usize, x: T) -> BodyPoint<T> {
         let panel = &self.panels[number];
         let [mut start, mut end] = panel.ends;
         let usable = panel.series.filter(|_| panel.doubt.is_finite());
         if panel.series.is_some() && usable.is_none() {
-            let beyond = self.rows.partition_point(|row| row.x <= x);
-            start = beyond.checked_sub(1).map_or(start, |before| self.rows[before]);
-            end = self.rows.get(beyond).copied().unwrap_or(start);
+            let beyond = self.points.partition_point(|row| row.x <= x);
+            start = beyond.checked_sub(1).map_or(start, |before| self.points[before]);
+            end = self.points.get(beyond).copied().unwrap_or(start);
             // The last point of all.
             if end.x <= start.x {
-                return Row { x, ..start };
+                return BodyPoint { x, ..start };
             }
         }
         let [y, slope, doubt] = match usable {
             Some(number) => {
                 let series = &self.series[number];
                 let [y, slope] = series.at(x);
-                let near = series.rows.partition_point(|row| row.x < x).min(NODES - 1);
-                [y, slope, series.rows[near].doubt]
+                let near = series.points.partition_point(|row| row.x < x).min(NODES - 1);
+                [y, slope, series.points[near].doubt]
             }
             None => {
                 let is_cubic = panel.series.is_none() && (panel.is_sampled || panel.is_run());
@@ -375,18 +375,18 @@ impl<T: Real> Body<T> {
                 [y, slope, if panel.is_sampled { start.doubt } else { T::one() / T::zero() }]
             }
         };
-        Row { x, y, slope, doubt }
+        BodyPoint { x, y, slope, doubt }
     }
 }
 
 /// Returns the points of the series of a panel that lie inside it.
-fn inner<'s, T: Real>(series: &'s [Series<T>], panel: &Panel<T>) -> &'s [Row<T>] {
+fn inner<'s, T: Real>(series: &'s [Series<T>], panel: &Panel<T>) -> &'s [BodyPoint<T>] {
     let Some(series) = panel.series.map(|number| &series[number]) else { return &[] };
     let [from, to] = panel.k.map(|k| series.t(k));
     let nodes = &Table::of(NODES).z[..NODES];
     let first = nodes.partition_point(|&node| T::of(node) < from);
     let after = nodes.partition_point(|&node| T::of(node) <= to);
-    &series.rows[first..after.max(first)]
+    &series.points[first..after.max(first)]
 }
 
 /// Refuses pieces that do not rise, or do not meet.

@@ -1,6 +1,6 @@
 //! A stretch of a body: its uncertainty, and whether more points reduce it.
 
-use super::series::{Row, Series};
+use super::series::{BodyPoint, Series};
 use crate::{CurvePoint, Real};
 
 /// Share of a panel at which a part of equal uncertainty is taken for noise: a wave finer than
@@ -9,11 +9,11 @@ const NOISE: f64 = 1.0 / 1024.0;
 
 /// Largest error of a series at a missed point, as a share of the distance by which it was missed:
 /// a more accurate series has seen the feature, not only its foot.
-const LEFT: f64 = 0.01;
+const MAX_REMAINING: f64 = 0.01;
 
 /// Largest share of its uncertainty that halving leaves of a panel that resolves the body: a series
 /// of eight terms leaves 1/256 or less.
-const GAIN: f64 = 0.125;
+const MAX_HALVING_RATIO: f64 = 0.125;
 
 /// Point of a piece that a series has missed.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +34,8 @@ pub(super) struct Panel<T> {
     pub piece: usize,
     pub last: usize,
     pub k: [T; 2],
-    /// Points at both ends; those inside a piece are not among the rows.
-    pub ends: [Row<T>; 2],
+    /// Points at both ends; those inside a piece are left out.
+    pub ends: [BodyPoint<T>; 2],
     pub is_inside: [bool; 2],
     /// Number of its series, which may reach beyond it; without a series it is the cubic between
     /// its ends.
@@ -72,12 +72,12 @@ impl<T: Real> Panel<T> {
 
     /// Tells whether its halving has much reduced its uncertainty.
     pub fn converges(&self) -> bool {
-        self.doubt <= T::of(GAIN) * self.before
+        self.doubt <= T::of(MAX_HALVING_RATIO) * self.before
     }
 }
 
-pub(super) fn row<T: Real>(end: CurvePoint<T>) -> Row<T> {
-    Row { x: end.x, y: end.y, slope: end.dy / end.dx, doubt: T::zero() }
+pub(super) fn row<T: Real>(end: CurvePoint<T>) -> BodyPoint<T> {
+    BodyPoint { x: end.x, y: end.y, slope: end.dy / end.dx, doubt: T::zero() }
 }
 
 /// Returns a known point of a panel that its series misses.
@@ -90,7 +90,7 @@ pub(super) fn missed_by<'m, T: Real>(
     known.iter().filter(|missed| missed.piece == panel.piece).find(|missed| {
         let t = series.t(missed.k);
         let error = series.doubt.max(series.miss(t, &missed.point));
-        let is_met = error <= T::of(LEFT) * missed.by;
+        let is_met = error <= T::of(MAX_REMAINING) * missed.by;
         // A shorter panel has points all over the feature.
         t.abs() <= T::one() && right - left > T::of(0.5) * missed.apart && !is_met
     })

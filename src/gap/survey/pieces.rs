@@ -7,14 +7,14 @@
 
 use super::panel::{Panel, row};
 use super::segment::Segment;
-use super::series::Row;
+use super::series::BodyPoint;
 use crate::Real;
 use crate::gap::Surface;
 use crate::profile::{Convexity, Piece};
 
 /// Largest height of a cubic that is 0 at both ends of a unit span, for a unit of its slope at one
 /// end.
-const RISE: f64 = 4.0 / 27.0;
+const CUBIC_RISE: f64 = 4.0 / 27.0;
 
 /// Rounding error of slopes of a cubic, in units in the last place.
 const ROUNDING: f64 = 64.0;
@@ -101,7 +101,7 @@ impl<T: Real> Panel<T> {
                 [height, beyond((end.slope - slope).abs(), steep)]
             });
             let [[d0, e0], [d1, e1]] = off;
-            heights = larger(heights, d0.max(d1) + T::of(RISE) * width * (e0 + e1));
+            heights = larger(heights, d0.max(d1) + T::of(CUBIC_RISE) * width * (e0 + e1));
             slopes = larger(slopes, e0.max(e1) * (cubic.width / width));
             bulges = larger(bulges, if are_cubics { zero } else { bulge(&ends) });
         }
@@ -123,7 +123,7 @@ fn is_known<T: Real>(piece: &Piece<'_, T>) -> bool {
 }
 
 /// Returns the approximate distance of the cubic between two ends from the line through both.
-fn bulge<T: Real>([start, end]: &[Row<T>; 2]) -> T {
+fn bulge<T: Real>([start, end]: &[BodyPoint<T>; 2]) -> T {
     let size = (end.slope - start.slope).abs() * (end.x - start.x);
     if size.is_finite() { size } else { (end.y - start.y).abs() }
 }

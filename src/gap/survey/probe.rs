@@ -13,22 +13,22 @@ use crate::real::same;
 use crate::{Body as Which, ContactError, Interval, Real};
 
 /// Default distance of points, in widths of the narrowest feature to be seen.
-const APART: f64 = 4.5;
+const PROBE_SPACING: f64 = 4.5;
 
 /// Factor of the load for which features are sought: a load larger by a few per cent needs no more
 /// points.
-const AHEAD: f64 = 1.05;
+const LOAD_AHEAD: f64 = 1.05;
 
 /// Largest uncertainty of panels for which the foot of a bump is to be seen, as a share of F/κ.
-const EXACT: f64 = 1e-3;
+const MAX_AT_FOOT: f64 = 1e-3;
 
 /// Largest uncertainty of panels next to a contact, as a share of F/κ: crests of this height may
 /// hide.
-pub(crate) const VAGUE: f64 = 0.1;
+pub(crate) const MAX_NEAR_UNCERTAINTY: f64 = 0.1;
 
 /// Largest distance of a point from a panel that does not count as missed, as a multiple of its
 /// uncertainty.
-const MISSED: f64 = 8.0;
+const MAX_MISMATCH: f64 = 8.0;
 
 /// Largest number of searches of stretches, each on the panels that the one before has refined.
 const MAX_ROUNDS: usize = 40;
@@ -112,7 +112,7 @@ impl<T: Real> Survey<T> {
         let mut stretches = std::mem::take(&mut self.stretches);
         let found = self.resolve_stretches(gap, load, contacts, &mut stretches, cost);
         self.stretches = stretches;
-        self.resolved = Some([T::of(AHEAD) * load, gap.tilt()]);
+        self.resolved = Some([T::of(LOAD_AHEAD) * load, gap.tilt()]);
         found
     }
 
@@ -125,7 +125,7 @@ impl<T: Real> Survey<T> {
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
         for _ in 0..MAX_ROUNDS {
-            self.list_stretches(gap, T::of(AHEAD) * load, contacts, stretches);
+            self.list_stretches(gap, T::of(LOAD_AHEAD) * load, contacts, stretches);
             let is_seen =
                 |stretch: &_| self.seen.iter().any(|seen| Stretch::is_seen_by(stretch, seen));
             stretches.retain(|stretch| !is_seen(stretch));
@@ -172,7 +172,7 @@ impl<T: Real> Survey<T> {
         load: T,
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
-        let (tolerance, vague) = (T::of(EXACT) * load, T::of(VAGUE) * load);
+        let (tolerance, vague) = (T::of(MAX_AT_FOOT) * load, T::of(MAX_NEAR_UNCERTAINTY) * load);
         let mut is_finer = false;
         for _ in 0..MAX_ROUNDS {
             let mut marked = std::mem::take(&mut self.marked);
@@ -242,7 +242,7 @@ impl<T: Real> Survey<T> {
                 let end = on.map_or(to, |on| to.min(on.left));
                 let beside = contacts[next.saturating_sub(1)..].iter().take(2);
                 let narrow = beside.fold(hull, |least, on| least.min(on.half_width()));
-                let apart = gap.spacing(narrow, APART);
+                let apart = gap.spacing(narrow, PROBE_SPACING);
                 // A limit of a contact is not a point.
                 let is_beside = from > pair[0].x || end < to;
                 let least = if is_beside { T::of(0.5) * apart } else { apart };
@@ -348,7 +348,7 @@ impl<T: Real> Body<T> {
                 let Some(number) = panel.series else { continue };
                 let series = &self.series[number];
                 let by = series.miss(t, &point);
-                let is_met = by <= T::of(MISSED) * series.doubt;
+                let is_met = by <= T::of(MAX_MISMATCH) * series.doubt;
                 if !is_met {
                     self.missed.push(Missed { piece, k, point, by, apart: stretch.apart });
                     (panel.doubt, panel.since, panel.is_void) =

@@ -36,7 +36,7 @@ const NOISE: f64 = 8.0;
 
 /// Point of a body as a graph over x.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row<T> {
+pub(super) struct BodyPoint<T> {
     pub x: T,
     pub y: T,
     /// Slope dY/dX; may be infinite, or NaN where `Y'/X'` is 0/0.
@@ -54,7 +54,7 @@ pub(crate) struct Series<T> {
     x: [T; NODES + 1],
     y: [T; NODES + 1],
     /// Points that it is made from, by rising x.
-    pub(super) rows: [Row<T>; NODES],
+    pub(super) points: [BodyPoint<T>; NODES],
     /// Uncertainty of the heights, a length; infinite where a point is not finite.
     pub doubt: T,
     /// True if the uncertainty of the heights is rounding.
@@ -83,18 +83,18 @@ impl<T: Real> Series<T> {
             let slope = if slope.is_finite() { slope } else { steep };
             most.max((y.missed[j] - slope * x.missed[j]).abs())
         });
-        let tail = y.tail + if x.tail.is_zero() { zero } else { steep * x.tail };
+        let error = y.error + if x.error.is_zero() { zero } else { steep * x.error };
         // The next coefficients of the heights are half those of the rates, divided by their
         // number.
         let rounding = y.rounding + if x.rounding.is_zero() { zero } else { steep * x.rounding };
-        let doubt = missed + tail / T::count(NODES);
-        let rows = from_fn(|j| {
+        let doubt = missed + error / T::count(NODES);
+        let points = from_fn(|j| {
             let along = if slopes[j].is_finite() { slopes[j].abs() } else { zero };
-            let error = T::count(NODES) * missed + y.tail + along * x.tail;
+            let error = T::count(NODES) * missed + y.error + along * x.error;
             let beyond = error - (y.rounding + along * x.rounding);
             let rate = (points[j].dx * reach).abs();
             let doubt = if beyond > zero { beyond / rate } else { zero };
-            Row { x: points[j].x, y: points[j].y, slope: slopes[j], doubt }
+            BodyPoint { x: points[j].x, y: points[j].y, slope: slopes[j], doubt }
         });
         // Where X stands still between points the curve is unknown.
         let length = points[NODES - 1].x - points[0].x;
@@ -103,7 +103,7 @@ impl<T: Real> Series<T> {
         let is_exact = known && doubt <= rounding;
         let doubt = if known { doubt } else { T::one() / zero };
         let (k, between) = ([left, right], x.ends());
-        Self { k, between, x: x.series, y: y.series, rows, doubt, is_exact }
+        Self { k, between, x: x.series, y: y.series, points, doubt, is_exact }
     }
 
     /// Returns the parameter of the curve at t.
@@ -128,7 +128,7 @@ impl<T: Real> Series<T> {
         }
         let middle = T::of(0.5) * self.k[0] + T::of(0.5) * self.k[1];
         let noise = Noise::near(piece, middle, evaluations);
-        self.doubt <= T::of(NOISE) * noise.of_height(self.rows[NODES / 2].slope)
+        self.doubt <= T::of(NOISE) * noise.of_height(self.points[NODES / 2].slope)
     }
 
     /// Returns the length of its range of the parameter as a share of the range of another series.
@@ -138,7 +138,7 @@ impl<T: Real> Series<T> {
 
     /// Returns the point of the series at x; `None` outside the outermost points.
     pub fn sample_near(&self, x: T) -> Option<CurveSample<T>> {
-        let between = [self.rows[0].x, self.rows[NODES - 1].x];
+        let between = [self.points[0].x, self.points[NODES - 1].x];
         if !(self.doubt.is_finite() && x > between[0] && x < between[1]) {
             return None;
         }
@@ -206,8 +206,8 @@ impl<T: Real> Series<T> {
     /// Returns an approximate solution of X(t) = x, by the points around x.
     fn guess(&self, x: T) -> T {
         let (one, [from, to]) = (T::one(), self.between);
-        let after = self.rows.partition_point(|row| row.x <= x);
-        let place = |i: usize| (T::of(Table::of(NODES).z[i]), self.rows[i].x);
+        let after = self.points.partition_point(|row| row.x <= x);
+        let place = |i: usize| (T::of(Table::of(NODES).z[i]), self.points[i].x);
         let (start, x0) = after.checked_sub(1).map_or((-one, from), place);
         let (end, x1) = if after < NODES { place(after) } else { (one, to) };
         let t = start + (end - start) * ((x - x0) / (x1 - x0));
@@ -221,7 +221,7 @@ struct Primitive<T> {
     /// Values less the series.
     missed: [T; POINTS],
     /// Size of the last two coefficients of the rates, and of the mismatch at the additional point.
-    tail: T,
+    error: T,
     rounding: T,
 }
 
@@ -253,7 +253,7 @@ impl<T: Real> Primitive<T> {
         Self {
             series,
             missed: rest.map(|rest| rest - mean),
-            tail: c[NODES - 1].abs() + c[NODES - 2].abs() + (rates[NODES] - rate).abs(),
+            error: c[NODES - 1].abs() + c[NODES - 2].abs() + (rates[NODES] - rate).abs(),
             rounding: T::of(ROUNDING) * T::epsilon() * size,
         }
     }

@@ -23,7 +23,7 @@ type Row<T> = [T; 5];
 /// Weight of the uncertainty of a curve in its [`risk`](Fitting::risk). One is right for heights.
 /// Two halved the error of pressures, which follow the curvature, and tolerates a noise given at
 /// half its true size.
-const DOUBT: f64 = 2.0;
+const UNCERTAINTY_WEIGHT: f64 = 2.0;
 
 /// Ratio of successive reaches tried.
 const STEP: f64 = 1.5;
@@ -125,7 +125,7 @@ impl<T: Real> Fitting<T> {
     fn risk(&mut self, reach: T) -> T {
         let distance = self.fit(reach);
         let doubt = freedom(&self.triangle) / T::count(self.points.len());
-        distance + T::of(2.0 * DOUBT) * doubt
+        distance + T::of(2.0 * UNCERTAINTY_WEIGHT) * doubt
     }
 
     /// Finds the reach of the least risk between two reaches.

@@ -23,12 +23,12 @@ use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// Fewest and most intervals of a panel, both powers of two.
-const COARSEST: usize = 8;
+const FEWEST_INTERVALS: usize = 8;
 const FINEST: usize = 256;
 
 /// Weights of Fejér's second rule on [-1, 1] with m intervals, m = 8, 16 ... 256.
 static WEIGHTS: LazyLock<Vec<Vec<f64>>> = LazyLock::new(|| {
-    let rules = std::iter::successors(Some(COARSEST), |m| Some(2 * m));
+    let rules = std::iter::successors(Some(FEWEST_INTERVALS), |m| Some(2 * m));
     rules.take_while(|&m| m <= FINEST).map(fejer).collect()
 });
 
@@ -111,7 +111,7 @@ impl<T: Real> Segment<T> {
 
     /// Returns the error of the integrals by the highest coefficients of the interpolant.
     fn plateau(&self) -> T {
-        let m = COARSEST << (self.rule - 1);
+        let m = FEWEST_INTERVALS << (self.rule - 1);
         let sine = |i: usize| T::of((PI * (i % (2 * m)) as f64 / m as f64).sin());
         let coefficient = |degree: usize| {
             let slope = |i: usize| self.slope[i * (FINEST / m)].unwrap_or_else(T::zero);

@@ -8,7 +8,7 @@ use super::half_angle::{Arc, HalfAngle, Sines};
 use super::panel::{Panel, Series, spans, within};
 use super::reexpansion::{PanelAngles, reexpanded};
 use crate::numerics::CompensatedSum;
-use crate::numerics::chebyshev::{MAX_SIZE, Row, by_size, evaluate, size_for};
+use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, by_size, evaluate, size_for};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::{MomentDerivatives, Moments};
 use crate::{Interval, Real};
@@ -74,7 +74,7 @@ pub(super) fn moments<T: Real>(
     if let [panel] = within {
         let over = over.get_or_insert_with(|| ([T::zero(); MAX_SIZE], 0));
         panel.over_to(over, on);
-        whole(&mut sums, over, panel.tail, on);
+        whole(&mut sums, over, panel.error, on);
     } else {
         *over = None;
         if !by_cosines(&mut sums, within, on) {
@@ -87,7 +87,7 @@ pub(super) fn moments<T: Real>(
 
 /// Returns the coefficients of the derivative by z.
 #[inline(always)]
-fn derivative<const N: usize, T: Real>(series: &Row<T>) -> Row<T> {
+fn derivative<const N: usize, T: Real>(series: &Coeffs<T>) -> Coeffs<T> {
     let mut slopes = [T::zero(); MAX_SIZE];
     for k in (1..N).rev() {
         let before = if k + 1 < N { slopes[k + 1] } else { T::zero() };
@@ -103,33 +103,28 @@ pub(crate) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) ->
     let mut before: Option<T> = None;
     within(panels, on).iter().all(|panel| {
         let mut series = [T::zero(); MAX_SIZE];
-        series[..panel.counting].copy_from_slice(panel.coefficients());
-        let slopes = by_size!(size_for(panel.counting), N => derivative::<N, T>(&series));
-        let others = slopes[1..panel.counting].iter().fold(T::zero(), |sum, a| sum + a.abs());
+        series[..panel.length].copy_from_slice(panel.coefficients());
+        let slopes = by_size!(size_for(panel.length), N => derivative::<N, T>(&series));
+        let others = slopes[1..panel.length].iter().fold(T::zero(), |sum, a| sum + a.abs());
         let [left, right] = panel.at_ends();
-        let error = panel.tail.max(allowed);
+        let error = panel.error.max(allowed);
         let jumps_down = before.is_some_and(|before| left < before - error);
         before = Some(right);
         // Markov's inequality bounds the derivative of such an error.
-        slopes[0] - others >= -error * T::count(panel.counting) && !jumps_down
+        slopes[0] - others >= -error * T::count(panel.length) && !jumps_down
     })
 }
 
 /// Integrates over a contact on one panel: over half a turn every cosine vanishes.
-fn whole<T: Real>(
-    sums: &mut EdgeSums<T>,
-    (series, counting): &Series<T>,
-    tail: T,
-    on: Interval<T>,
-) {
+fn whole<T: Real>(sums: &mut EdgeSums<T>, (series, length): &Series<T>, error: T, on: Interval<T>) {
     let half = T::of(0.5);
-    let slopes = by_size!(size_for(*counting), N => derivative::<N, T>(series));
+    let slopes = by_size!(size_for(*length), N => derivative::<N, T>(series));
     let by_x = T::one() / on.half_width();
     let g = [series[0], half * series[1], half * series[2]];
     sums.add(g, [slopes[0], half * slopes[1], half * (slopes[0] + half * slopes[2])], by_x);
-    let squares = series[1..*counting].iter().fold(T::zero(), |sum, &a| sum + a * a);
+    let squares = series[1..*length].iter().fold(T::zero(), |sum, &a| sum + a * a);
     sums.size = (series[0] * series[0] + half * squares).sqrt();
-    sums.error = tail;
+    sums.error = error;
 }
 
 /// Integrates over several panels by continuing their series over the contact; `false` if it
@@ -140,13 +135,13 @@ fn by_cosines<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval
     let every = reexpanded(panels, on, |span| {
         let PanelAngles { panel, series, integrals, ends: [from, to], .. } = span;
         if !span.is_first {
-            let [before, tail] = before;
-            jump(sums, [before, *from], tail + panel.tail, span.start, on);
+            let [before, error] = before;
+            jump(sums, [before, *from], error + panel.error, span.start, on);
         }
         by_size!(size_for(span.terms), N => span_of::<N, T>(sums, series, integrals, on));
         sums.size += half * (from.abs() + to.abs()) * integrals[0];
-        sums.error += (panel.tail + T::epsilon() * span.bulk) * integrals[0];
-        before = [*to, panel.tail];
+        sums.error += (panel.error + T::epsilon() * span.bulk) * integrals[0];
+        before = [*to, panel.error];
     });
     sums.scale(T::frac_1_pi());
     every
@@ -156,7 +151,7 @@ fn by_cosines<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval
 #[inline(always)]
 fn span_of<const N: usize, T: Real>(
     sums: &mut EdgeSums<T>,
-    series: &Row<T>,
+    series: &Coeffs<T>,
     integrals: &Sines<T>,
     on: Interval<T>,
 ) {
@@ -186,7 +181,7 @@ fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T
     let mut before: Option<&Panel<T>> = None;
     for (panel, [from, to]) in spans(panels, on) {
         if let Some(before) = before {
-            let error = before.tail + panel.tail;
+            let error = before.error + panel.error;
             jump(sums, [before.at_ends()[1], panel.at_ends()[0]], error, left, on);
         }
         let right = HalfAngle::of(on, to);
@@ -203,7 +198,7 @@ fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: Arc<T>,
     let rule = if coarse {
         GaussLegendre::coarsest()
     } else {
-        GaussLegendre::suited(panel.counting, arc.tangent)
+        GaussLegendre::suited(panel.length, arc.tangent)
     };
     let by_x = T::one() / panel.half();
     let from = panel.local(from);
@@ -229,7 +224,7 @@ fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: Arc<T>,
     let [g0, g1, size, h0, h1, h2, square] = lanes.map(|lane| total(lane) * arc.tangent);
     sums.add([g0, g1, square + square - g0], [h0, h1, h2], by_x);
     sums.size += size;
-    sums.error += panel.tail * T::of(4.0) * arc.tangent;
+    sums.error += panel.error * T::of(4.0) * arc.tangent;
 }
 
 /// Adds the impulse of g' where g jumps. A jump within the errors of the two series, in each

@@ -37,7 +37,7 @@ use super::panel::{Panel, Series, spans, within};
 use super::panel_set::FINEST;
 use super::reexpansion::{PanelAngles, reexpanded};
 use crate::numerics::chebyshev::{
-    MAX_SIZE, Row, Table, by_size, second_kind, size_for, value_at, values,
+    Coeffs, MAX_SIZE, Table, by_size, second_kind, size_for, value_at, values,
 };
 use crate::real::fma;
 use crate::{Interval, Real};
@@ -74,7 +74,7 @@ impl<T: Real> Edges<T> {
 pub(super) struct HilbertTransform<T> {
     pub on: Interval<T>,
     /// Smooth part: the first `terms` coefficients of the `U_l`, divided by L.
-    smooth: Row<T>,
+    smooth: Coeffs<T>,
     terms: usize,
     /// Changes of the slope from one panel to the next.
     changes: Vec<Change<T>>,
@@ -97,7 +97,7 @@ pub(super) struct Rounding<T> {
 #[derive(Clone)]
 struct Change<T> {
     breakpoint: Breakpoint<T>,
-    series: Row<T>,
+    series: Coeffs<T>,
     terms: usize,
 }
 
@@ -127,9 +127,9 @@ impl<T: Real> HilbertTransform<T> {
     ) {
         self.on = on;
         let panels = within(panels, on);
-        let tail = panels.iter().fold(T::zero(), |max, panel| max.max(panel.tail));
+        let error = panels.iter().fold(T::zero(), |max, panel| max.max(panel.error));
         let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
-        let kink = size * rounding + T::of(64.0) * tail;
+        let kink = size * rounding + T::of(64.0) * error;
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
         self.is_far = panels.len() > MAX_CHANGES
             || !(self.reexpanded(panels, over, on) || self.merged(panels, on));
@@ -162,7 +162,7 @@ impl<T: Real> HilbertTransform<T> {
             self.terms = self.terms.max(terms - 1);
             let smooth = &mut self.smooth;
             by_size!(size_for(*terms), N => add_smooth::<N, T>(smooth, series, integrals));
-            before = (*series, *terms, panel.tail);
+            before = (*series, *terms, panel.error);
         });
         let share = T::one() / on.half_width();
         self.smooth = self.smooth.map(|coefficient| coefficient * share);
@@ -213,20 +213,21 @@ impl<T: Real> HilbertTransform<T> {
         true
     }
 
-    /// Returns the change from the panel before, given by its series, terms and tail, to this one.
+    /// Returns the change from the panel before, given by its series, terms and truncation error,
+    /// to this one.
     fn change(
         &self,
         span: &PanelAngles<'_, T>,
-        (last, last_terms, last_tail): &(Row<T>, usize, T),
+        (last, last_terms, last_error): &(Coeffs<T>, usize, T),
         on: Interval<T>,
     ) -> Change<T> {
         let panel = span.panel;
-        let mut series: Row<T> = std::array::from_fn(|k| span.series[k] - last[k]);
+        let mut series: Coeffs<T> = std::array::from_fn(|k| span.series[k] - last[k]);
         let terms = span.terms.max(*last_terms);
         // At a breakpoint without a jump, noise would be a spike.
         let z = (panel.x[0] - on.left) - (on.right - panel.x[0]);
         let jump = value_at(&series[..terms], z / (on.right - on.left));
-        if jump.abs() <= self.rounding.slope + T::of(8.0) * (panel.tail + *last_tail) {
+        if jump.abs() <= self.rounding.slope + T::of(8.0) * (panel.error + *last_error) {
             // A derivative may jump where the slope does not.
             series[0] -= jump.component(0);
         }
@@ -277,9 +278,9 @@ impl<T: Real> HilbertTransform<T> {
                 // Next to a breakpoint the error has a logarithm.
                 let beside = (x - from).abs().min((to - x).abs()).max(T::of(1e-6) * length);
                 let log = T::of(3.0) + T::of(0.5) * (length / beside).ln();
-                here = here.max(panel.tail * log * near);
+                here = here.max(panel.error * log * near);
             } else {
-                sum += panel.tail * sine * length / away;
+                sum += panel.error * sine * length / away;
             }
         };
         let mut of_groups = T::zero();
@@ -321,11 +322,11 @@ impl<T: Real> HilbertTransform<T> {
 
 /// Adds the integral of q over a span to the coefficients.
 #[inline(always)]
-fn add_smooth<const N: usize, T: Real>(smooth: &mut Row<T>, series: &Row<T>, integrals: &Sines<T>) {
+fn add_smooth<const N: usize, T: Real>(smooth: &mut Coeffs<T>, q: &Coeffs<T>, sines: &Sines<T>) {
     for m in 1..N {
-        let integral = integrals[m - 1] * T::of(if m == 1 { 1.0 } else { 2.0 });
+        let integral = sines[m - 1] * T::of(if m == 1 { 1.0 } else { 2.0 });
         for l in 0..N - m {
-            smooth[l] = fma(integral, series[m + l], smooth[l]);
+            smooth[l] = fma(integral, q[m + l], smooth[l]);
         }
     }
 }

@@ -12,7 +12,7 @@ use super::hilbert_transform::{Breakpoint, Rounding, shares};
 use super::panel::{Panel, spans};
 use super::treecode::{Group, group};
 use crate::numerics::CompensatedSum;
-use crate::numerics::chebyshev::{MAX_SIZE, Row, value_at};
+use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, value_at};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Interval, Real};
 use nalgebra::Complex;
@@ -56,7 +56,7 @@ pub(super) struct FarPanel<T> {
     pub panel: Panel<T>,
     breakpoint: Breakpoint<T>,
     /// Factors of the `b_k`, in position `k - 1`.
-    integrals: Row<T>,
+    integrals: Coeffs<T>,
     reach: T,
     pub nodes: std::ops::Range<usize>,
 }
@@ -93,7 +93,7 @@ impl<T: Real> NearFarSum<T> {
     }
 
     /// Returns the cosine series of all panels, from the group of all; empty without groups.
-    pub fn cosines(&self) -> (Row<T>, usize) {
+    pub fn cosines(&self) -> (Coeffs<T>, usize) {
         self.groups.first().map_or(([T::zero(); MAX_SIZE], 0), Group::cosines)
     }
 
@@ -246,7 +246,7 @@ pub(super) enum Distance<'f, T> {
 /// Returns the part of a panel between two points, expanded anew.
 fn clip<T: Real>(panel: &Panel<T>, x: [T; 2]) -> Panel<T> {
     let (series, _) = panel.over(Interval { left: x[0], right: x[1] });
-    let mut clipped = Panel { series, tail: panel.tail, ..Panel::new(x) };
+    let mut clipped = Panel { series, error: panel.error, ..Panel::new(x) };
     clipped.count(panel.n);
     clipped
 }
@@ -267,10 +267,10 @@ impl<T: Real> FarPanel<T> {
         let rule = if reach < T::of(3.0) && !is_near && closest < T::of(3.0) {
             GaussLegendre::finest()
         } else {
-            GaussLegendre::suited(panel.counting, arc.tangent)
+            GaussLegendre::suited(panel.length, arc.tangent)
         };
         let by_x = T::one() / panel.half();
-        let counting = if reach < closest { 0 } else { panel.counting };
+        let length = if reach < closest { 0 } else { panel.length };
         let start = nodes.len();
         let mut integrals = [T::zero(); MAX_SIZE];
         for block in 0..rule.n / W {
@@ -278,7 +278,7 @@ impl<T: Real> FarPanel<T> {
             let (along, weight) = (y.map(|y| y - arc.to_left), weight.map(|by| by * arc.tangent));
             let s = along.map(|along| along * by_x - T::one());
             let (mut t0, mut t1) = ([T::one(); W], s);
-            for integral in &mut integrals[..counting] {
+            for integral in &mut integrals[..length] {
                 for i in 0..W {
                     *integral += weight[i] * t0[i];
                     (t0[i], t1[i]) = (t1[i], (s[i] + s[i]) * t1[i] - t0[i]);
@@ -290,7 +290,7 @@ impl<T: Real> FarPanel<T> {
                 }
             }
         }
-        for (k, integral) in integrals[..panel.counting].iter_mut().enumerate() {
+        for (k, integral) in integrals[..panel.length].iter_mut().enumerate() {
             let twice = if k == 0 { T::one() } else { T::of(2.0) };
             *integral *= twice * by_x;
         }

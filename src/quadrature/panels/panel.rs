@@ -1,6 +1,6 @@
 //! One polynomial piece of the slope, and the verdict on its coefficients.
 
-use crate::numerics::chebyshev::{MAX_SIZE, Row, SIZES, Table, expand_to, size_for, value_at};
+use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, SIZES, Table, expand_to, size_for, value_at};
 use crate::real::same;
 use crate::{Interval, Real};
 
@@ -11,11 +11,11 @@ pub(crate) struct Panel<T> {
     pub x: [T; 2],
     /// Number of nodes sampled.
     pub n: usize,
-    /// Coefficients, `n` in number, of which the first `counting` exceed rounding.
-    pub series: Row<T>,
-    pub counting: usize,
+    /// Coefficients, `n` in number, of which the first `length` exceed rounding.
+    pub series: Coeffs<T>,
+    pub length: usize,
     /// Estimated largest error of the series.
-    pub tail: T,
+    pub error: T,
     /// Part of the slopes that is rounding, or noise of the formulas.
     pub noise: T,
     /// Largest fall of the slope from a node to the next.
@@ -35,8 +35,8 @@ impl<T: Real> Panel<T> {
             x,
             n: 0,
             series: [zero; MAX_SIZE],
-            counting: 0,
-            tail: zero,
+            length: 0,
+            error: zero,
             noise: zero,
             fall: zero,
             apart,
@@ -47,7 +47,7 @@ impl<T: Real> Panel<T> {
     /// Counts the coefficients of a panel with n nodes.
     pub fn count(&mut self, n: usize) {
         self.n = n;
-        self.counting = significant_length(&self.series[..n], 0..T::COMPONENTS, rounding);
+        self.length = significant_length(&self.series[..n], 0..T::COMPONENTS, rounding);
     }
 
     /// Drops the coefficients that are mere noise of this level: they say nothing about the slope,
@@ -55,7 +55,7 @@ impl<T: Real> Panel<T> {
     pub fn drop_noise(&mut self, level: T) {
         let by_value = significant_length(self.coefficients(), 0..1, |_| T::of(4.0) * level);
         // Derivatives have their own noise.
-        self.counting =
+        self.length =
             significant_length(self.coefficients(), 1..T::COMPONENTS, rounding).max(by_value);
     }
 
@@ -66,7 +66,7 @@ impl<T: Real> Panel<T> {
         let (half, z) = (T::of(0.5), &Table::of(self.n).z[..self.n]);
         let [first, last] = [z[0], z[self.n - 1]].map(|z| value_at(self.coefficients(), T::of(z)));
         (self.series[0], self.series[1]) = (half * (first + last), half * (last - first));
-        self.counting = 2;
+        self.length = 2;
     }
 
     /// Turns the panel from one tilt to another; turning back restores it exactly.
@@ -93,7 +93,7 @@ impl<T: Real> Panel<T> {
     }
 
     pub fn coefficients(&self) -> &[T] {
-        &self.series[..self.counting]
+        &self.series[..self.length]
     }
 
     /// Returns the slope at the left and at the right end.
@@ -143,17 +143,17 @@ impl<T: Real> Panel<T> {
     /// Writes the slope over a contact into a given series, as [`over`](Self::over) returns it.
     pub fn over_to(&self, (series, terms): &mut Series<T>, on: Interval<T>) {
         if same(self.x[0], on.left) && same(self.x[1], on.right) {
-            (*series, *terms) = (self.series, self.counting);
+            (*series, *terms) = (self.series, self.length);
             return;
         }
         let ends = [self.local(on.left), self.local(on.right)];
         expand_to(series, self.coefficients(), ends);
-        *terms = size_for(self.counting);
+        *terms = size_for(self.length);
     }
 }
 
 /// Coefficients of a series, and the number of significant ones.
-pub(super) type Series<T> = (Row<T>, usize);
+pub(super) type Series<T> = (Coeffs<T>, usize);
 
 /// Returns the size up to which a coefficient is rounding, given the size of the largest.
 fn rounding<T: Real>(largest: T) -> T {
@@ -167,14 +167,14 @@ fn significant_length<T: Real>(
     parts: std::ops::Range<usize>,
     nothing: impl Fn(T) -> T,
 ) -> usize {
-    let mut counting = 2;
+    let mut length = 2;
     for part in parts {
         let size = |a: &T| a.component(part).abs();
         let nothing = nothing(series.iter().fold(T::zero(), |max, a| max.max(size(a))));
         let last = series.iter().rposition(|a| size(a) > nothing);
-        counting = last.map_or(2, |last| last + 1).max(counting);
+        length = last.map_or(2, |last| last + 1).max(length);
     }
-    counting
+    length
 }
 
 /// Returns the panels that an interval lies on. The outermost of them may have to be continued a
@@ -215,7 +215,7 @@ pub(super) enum Resolution<T> {
 ///
 /// Errors up to `allowed` are good enough. `rounded` is the error of the bodies' slopes on this
 /// panel by one unit of rounding.
-pub(super) fn judge<T: Real>(n: usize, series: &Row<T>, allowed: T, rounded: T) -> Resolution<T> {
+pub(super) fn judge<T: Real>(n: usize, series: &[T], allowed: T, rounded: T) -> Resolution<T> {
     let pairs = n / 2;
     let pair = |i: usize| series[2 * i].abs().max(series[2 * i + 1].abs());
     let (last, before) = (pair(pairs - 1), pair(pairs - 2));

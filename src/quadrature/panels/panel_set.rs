@@ -12,7 +12,7 @@ pub(crate) use probing::MAX_MISSED;
 
 use super::panel::Panel;
 use crate::gap::{Cost, Gap, Guides, SampleCache, Sampler};
-use crate::numerics::chebyshev::{MAX_SIZE, Row, size_for};
+use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, size_for};
 use crate::profile::Noise;
 use crate::real::same;
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -34,7 +34,7 @@ const MAX_SPLITS: usize = 4096;
 const NOISY_LEVEL: usize = 4;
 
 /// Share of an error that both halves keep where halving does not help; the noise is then measured.
-const STUCK: f64 = 0.25;
+const NO_GAIN: f64 = 0.25;
 
 /// Number of panels beyond twice the first number at which the next solve covers the span anew.
 /// (Each extension adds one or more, and every panel costs time in each evaluation.)
@@ -42,7 +42,7 @@ const MAX_ADDED: usize = 6;
 
 /// Share of a span, from its left end, at which it is split if its heights contradict its slopes: a
 /// step may lie in the middle.
-const ASIDE: f64 = 0.46;
+const SPLIT_OFF_CENTRE: f64 = 0.46;
 
 /// Share of a panel on which an unresolved wave is smooth and noise is not.
 const SHARE_OF_A_WAVE: f64 = 1.0 / 4096.0;
@@ -90,7 +90,7 @@ pub(crate) struct PanelSet<T> {
     /// largest slopes of the first.
     derivatives: Vec<SampledBody<T>>,
     /// Slopes of both bodies at the nodes of the last panel.
-    slopes: [Row<T>; 2],
+    slopes: [Coeffs<T>; 2],
     derivative_sizes: Vec<T>,
     /// Tilt added to the slope of every panel: samples are of bodies that are not turned.
     pub tilt: T,
@@ -200,7 +200,7 @@ impl<T: Real> PanelSet<T> {
 
     /// Returns the uncertainty of the slope at `x`.
     pub fn doubt(&self, x: T) -> Option<T> {
-        self.panel_at(x).map(|panel| panel.tail + self.tolerance * self.size)
+        self.panel_at(x).map(|panel| panel.error + self.tolerance * self.size)
     }
 
     fn panel_at(&self, x: T) -> Option<&Panel<T>> {
@@ -258,7 +258,7 @@ impl<T: Real> PanelSet<T> {
         let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
         let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
         let Interval { left, right } = further(have.left - more(&first), have.right + more(&last));
-        let enough = |panel: &Panel<T>| size_for(panel.counting / 2).max(LEAST);
+        let enough = |panel: &Panel<T>| size_for(panel.length / 2).max(LEAST);
         // A feature beyond the last node of the outermost panel shows at the new neighbour, unless
         // a breakpoint lies between them.
         if right > have.right {
@@ -332,7 +332,7 @@ impl<T: Real> PanelSet<T> {
         loop {
             let [left, right] = trial.panel.x;
             // A step in the heights may well lie in the middle, where neither half would show it.
-            let share = T::of(if trial.hides { ASIDE } else { 0.5 });
+            let share = T::of(if trial.hides { SPLIT_OFF_CENTRE } else { 0.5 });
             let middle = (T::one() - share) * left + share * right;
             let may =
                 splits < MAX_SPLITS && trial.may_be_halved() && is_long(trial.panel.x, self.noise);
@@ -346,13 +346,13 @@ impl<T: Real> PanelSet<T> {
                 self.try_out(gap, &mut other)?;
                 for half in [&mut one, &mut other] {
                     half.falls = half.falls_below(&trial);
-                    half.sparse |= half.split && half.panel.tail >= T::of(2.0) * trial.panel.tail;
+                    half.sparse |= half.split && half.panel.error >= T::of(2.0) * trial.panel.error;
                 }
                 // Noise is as large in both halves. So is a wave that is not resolved yet, as long
                 // as it is not faint.
-                let faint = trial.panel.tail <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
+                let faint = trial.panel.error <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
                 let is_stuck = |half: &Candidate<T>| {
-                    half.split && half.panel.tail >= T::of(STUCK) * trial.panel.tail
+                    half.split && half.panel.error >= T::of(NO_GAIN) * trial.panel.error
                 };
                 if faint && is_stuck(&one) && is_stuck(&other) && self.measure_noise(gap, false) {
                     self.try_out(gap, &mut trial)?;
@@ -360,7 +360,7 @@ impl<T: Real> PanelSet<T> {
                 }
                 // A much larger error is not noise: a half with fewer nodes was given up earlier.
                 let as_much = |half: &Candidate<T>| {
-                    let ratio = half.panel.tail / trial.panel.tail;
+                    let ratio = half.panel.error / trial.panel.error;
                     let fewer = half.panel.n < trial.panel.n;
                     let by_value = ratio >= T::of(0.8) && (!fewer || ratio <= T::of(16.0));
                     let by_derivative = half.derivatives >= T::of(0.8) * trial.derivatives;
@@ -400,7 +400,7 @@ impl<T: Real> PanelSet<T> {
             if let Some(mut before) = before {
                 self.own_up([&mut before, &mut trial.panel], trial.allowed);
                 let last = self.panels.len() - 1;
-                self.panels[last].tail = before.tail;
+                self.panels[last].error = before.error;
             }
             self.panels.push(trial.panel);
             let Some(next) = self.waiting.pop() else { return Ok(()) };
@@ -421,6 +421,6 @@ impl<T: Real> PanelSet<T> {
         }
         self.sample_panel::<N>(gap, &mut part)?;
         let rest = part.series[N / 2..N].iter().fold(T::zero(), |max, a| max.max(a.abs()));
-        Ok(rest >= T::of(0.125) * panel.tail)
+        Ok(rest >= T::of(0.125) * panel.error)
     }
 }

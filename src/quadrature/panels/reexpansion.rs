@@ -6,7 +6,7 @@
 
 use super::half_angle::{HalfAngle, Sines};
 use super::panel::Panel;
-use crate::numerics::chebyshev::{MAX_SIZE, Row, size_for};
+use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, size_for};
 use crate::{Interval, Real};
 
 /// Largest sum of the coefficients over the contact, in units of the largest slope; a larger sum
@@ -21,7 +21,7 @@ pub(super) struct PanelAngles<'a, T> {
     /// Start of the part.
     pub start: HalfAngle<T>,
     /// Series over the whole contact, and the number of its significant coefficients.
-    pub series: Row<T>,
+    pub series: Coeffs<T>,
     pub terms: usize,
     /// Sum of the absolute values of the coefficients.
     pub bulk: T,
@@ -40,7 +40,7 @@ pub(super) fn reexpanded<T: Real>(
     mut show: impl FnMut(&PanelAngles<'_, T>),
 ) -> bool {
     let zero = T::zero();
-    let most = panels.iter().map(|panel| panel.counting).max().unwrap_or(MAX_SIZE);
+    let most = panels.iter().map(|panel| panel.length).max().unwrap_or(MAX_SIZE);
     let count = size_for(most) + 2;
     let single = panels.len() == 1;
     let last = panels.len().saturating_sub(1);

@@ -15,14 +15,14 @@
 
 use super::near_far_sum::FarPanel;
 use crate::Real;
-use crate::numerics::chebyshev::{MAX_SIZE, Row, Table};
+use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, Table};
 use std::ops::Range;
 
 /// Number of points that stand for a group: enough for rounding from its own length away.
 const POINTS: usize = 24;
 
 /// Largest number of panels in a group that is not divided.
-const FEW: usize = 8;
+const MAX_UNDIVIDED: usize = 8;
 
 /// Group of neighbouring panels.
 #[derive(Clone)]
@@ -37,7 +37,7 @@ pub(super) struct Group<T> {
     /// Weights `W_m`.
     weights: [T; POINTS],
     /// Sum of the errors of the panels, each times its length.
-    tail: T,
+    error: T,
     /// Number of the next group outside this one.
     pub next: usize,
 }
@@ -54,18 +54,18 @@ pub(super) fn group<T: Real>(
     let [Some(first), Some(last)] = [within.first(), within.last()] else { return };
     let (left, right) = (first.panel.x[0], last.panel.x[1]);
     let length = right - left;
-    let (mut near, mut tail) = ([left - length, right + length], T::zero());
+    let (mut near, mut error) = ([left - length, right + length], T::zero());
     for part in within {
-        tail += part.panel.tail * (part.panel.half() + part.panel.half());
+        error += part.panel.error * (part.panel.half() + part.panel.half());
         let [from, to] = part.reached();
         near = [near[0].min(from), near[1].max(to)];
     }
     let half = T::of(0.5) * length;
     let (number, weights) = (groups.len(), [T::zero(); POINTS]);
     let (parts_of, next) = (numbers.clone(), number + 1);
-    groups.push(Group { parts: parts_of, near, left, half, weights, tail, next });
+    groups.push(Group { parts: parts_of, near, left, half, weights, error, next });
     let mut sums = GroupMoments { left, by_half: T::one() / half, lanes: [[T::zero(); W]; POINTS] };
-    if numbers.len() <= FEW {
+    if numbers.len() <= MAX_UNDIVIDED {
         for part in within {
             for nodes in nodes[part.nodes.clone()].as_chunks().0 {
                 sums.add(part.panel.x[0], nodes);
@@ -144,18 +144,18 @@ impl<T: Real> Group<T> {
 
     /// Tells whether the group is not divided.
     pub fn is_few(&self) -> bool {
-        self.parts.len() <= FEW
+        self.parts.len() <= MAX_UNDIVIDED
     }
 
     /// Returns a bound on the error of the integral by the errors of the panels, without the factor
     /// of dθ.
     pub fn doubt(&self, x: T) -> T {
         let [left, right] = self.ends();
-        self.tail / (left - x).max(x - right)
+        self.error / (left - x).max(x - right)
     }
 
     /// Returns the cosine series of g and its number of terms, if the group is a whole contact.
-    pub fn cosines(&self) -> (Row<T>, usize) {
+    pub fn cosines(&self) -> (Coeffs<T>, usize) {
         let (mut series, share) = ([T::zero(); MAX_SIZE], T::count(POINTS) * T::frac_1_pi());
         series[..POINTS].copy_from_slice(&Table::of(POINTS).coefficients(&self.weights));
         (series.map(|a| share * a), POINTS)

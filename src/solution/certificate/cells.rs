@@ -12,10 +12,10 @@ use crate::quadrature::panels::{Panel, PanelSet};
 use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
 
 /// Largest difference of the two slopes, as a share of the largest slope, besides the noise.
-const ALLOWED: f64 = 1e-6;
+const MAX_DIFFERENCE: f64 = 1e-6;
 
 /// Half-length of a cell, as a share of the spacing, below which the cell is not compared.
-const SHORT: f64 = 1e-6;
+const LEAST_CELL: f64 = 1e-6;
 
 /// Samples of the gap in cells.
 pub(super) struct Cells<'g, T: Real> {
@@ -114,13 +114,13 @@ impl<'g, T: Real> Cells<'g, T> {
         let mut doubt = None;
         let mut missed: Option<(T, ContactError<T>)> = None;
         // A cell halved down to a jump ends on one side of it, by chance.
-        let short = T::of(SHORT) * self.spacing;
+        let short = T::of(LEAST_CELL) * self.spacing;
         for cell in row.iter().filter(|cell| cell.half() > short) {
             for &z in &Table::of(cell.n).z[..cell.n] {
                 let x = cell.x[0] + cell.half() * T::of(1.0 + z);
                 let Some((assumed, error)) = assumed(x) else { continue };
                 doubt = Some(doubt.map_or(error, |least: T| least.min(error)));
-                let allowed = T::of(ALLOWED) * steepest + T::of(16.0) * error;
+                let allowed = T::of(MAX_DIFFERENCE) * steepest + T::of(16.0) * error;
                 let most = missed.as_ref().map_or(allowed, |&(most, _)| allowed.max(most));
                 if (cell.value(x) - assumed).abs() <= most {
                     continue;

@@ -25,7 +25,7 @@ const MAX_CELLS: usize = 1 << 16;
 
 /// Truncation error from which on cells resolve nothing, as a share of the rise at the largest
 /// slope.
-const VAGUE: f64 = 1e-2;
+const MAX_TRUNCATION: f64 = 1e-2;
 
 /// Contacts under load.
 pub(super) struct Loaded<'c, T: Real> {
@@ -109,7 +109,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             row.panels.reverse();
         }
         let (mut left_out, [least, most]) = (T::zero(), extremes(&row.panels));
-        let vague = T::of(VAGUE) * most.max(-least);
+        let vague = T::of(MAX_TRUNCATION) * most.max(-least);
         for panel in &row.panels {
             self.take(panel, &mut left_out, cells.cost())?;
             if left_out > vague * self.distance(panel.x[0]).max(self.distance(panel.x[1])) {
@@ -128,7 +128,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
     ) -> Result<(), ContactError<T>> {
         let length = panel.x[1] - panel.x[0];
         let rounding = T::of(16.0) * T::epsilon();
-        *left_out += length * (panel.tail + rounding * panel.series[0].abs());
+        *left_out += length * (panel.error + rounding * panel.series[0].abs());
         let series = panel.coefficients();
         // A straight flank is as steep as in the contact.
         let [least, most] = self.of.slopes[self.contact];

@@ -21,7 +21,7 @@ const MAX_TOPS: usize = 8;
 
 /// Share of the largest stress on the first grid, above which a place may lead to a higher maximum:
 /// from one depth to the next, a factor of 1.6, stress changes by a few hundredths.
-const FOOT: f64 = 0.9;
+const LEAST_PROMISING: f64 = 0.9;
 
 impl<T: Real> Subsurface<'_, T> {
     /// Finds the largest shear stress in the plane. Its value has nearly all digits, its place half
@@ -192,7 +192,7 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
         feet.sort_by(|(_, one), (_, other)| {
             other.value.partial_cmp(&one.value).unwrap_or(Ordering::Equal)
         });
-        let least = T::of(FOOT) * feet[0].1.value;
+        let least = T::of(LEAST_PROMISING) * feet[0].1.value;
         let mut best = feet[0].1;
         for foot in feet.into_iter().take_while(|(_, foot)| foot.value >= least) {
             let top = self.climb(foot)?;

@@ -8,7 +8,7 @@ use nalgebra::{Cholesky, DVector, Dyn};
 
 /// Largest share of rounding in the product of gaps and forces, before level and slope are taken
 /// off the gaps.
-const ROUNDED: f64 = 1e-3;
+const MAX_ROUNDING: f64 = 1e-3;
 
 /// Constraint on the forces of loaded cells: one sum, and one moment if the bodies turn.
 pub(super) struct Balance<'a, T: Real> {
@@ -73,7 +73,7 @@ impl<'a, T: Real> Balance<'a, T> {
         let forces = self.less(forces, [level, slope]);
         let size = dot(missed, &forces);
         let beside = level * excess[0] + slope * excess[1];
-        if T::epsilon() * beside < T::of(ROUNDED) * size {
+        if T::epsilon() * beside < T::of(MAX_ROUNDING) * size {
             return (forces, size);
         }
         for (missed, &arm) in missed.iter_mut().zip(self.arms) {

@@ -13,7 +13,7 @@ const DENSE: usize = 120;
 const NEIGHBOURS: usize = 32;
 
 /// Relative tolerance of the forces from conjugate gradients.
-const ENOUGH: f64 = 1e-4;
+const TOLERANCE: f64 = 1e-4;
 
 /// Largest number of steps of conjugate gradients for one system.
 const MAX_STEPS: usize = 300;
@@ -92,7 +92,7 @@ impl<T: Real> ActiveSet<T> {
         let (mut next, mut size) = balance.step(&mut missed);
         let mut way = next.clone();
         for _ in 0..MAX_STEPS {
-            if dot(&next, &next) <= T::of(ENOUGH * ENOUGH) * dot(&forces, &forces) {
+            if dot(&next, &next) <= T::of(TOLERANCE * TOLERANCE) * dot(&forces, &forces) {
                 break;
             }
             let product = times(&way);

@@ -7,7 +7,7 @@ use crate::{Ends, Interval, Real};
 const FINEST: f64 = 1.0 / 40.0;
 
 /// Least width of a cell that is cut for known heights, as a share of their spacing.
-const CLOSEST: f64 = 1.0 / 16.0;
+const LEAST_CUT: f64 = 1.0 / 16.0;
 
 /// Least gap between two runs, as a share of the wider one; closer runs are one.
 const LEAST_GAP: f64 = 1e-3;
@@ -98,7 +98,7 @@ impl<T: Real> ActiveSet<T> {
             let cell = &self.cells[i];
             // Heights say nothing of cells much shorter than their spacing.
             let beside = known[(k + 1).min(known.len() - 1)][0] - known[k.saturating_sub(1)][0];
-            if cell.width() < T::of(CLOSEST) * beside.component(0) {
+            if cell.width() < T::of(LEAST_CUT) * beside.component(0) {
                 continue;
             }
             let sunk = self.level + self.slope * self.arm(x) - self.potential_at(x, i);

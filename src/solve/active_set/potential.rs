@@ -12,9 +12,9 @@ use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 /// Largest number of cells with columns.
-const FULL: usize = 320;
+const MAX_COLUMNS: usize = 320;
 
-/// Largest number of cells in a block, with more cells than `FULL`.
+/// Largest number of cells in a block, with more cells than `MAX_COLUMNS`.
 const BLOCK: usize = 16;
 
 /// Numbers of moments of the forces of a group, and of places in a block: both leave errors of
@@ -108,7 +108,7 @@ impl<T: Real> Potential<T> {
         self.cells = cells;
         self.groups.clear();
         self.blocks.clear();
-        if self.cells.len() > FULL {
+        if self.cells.len() > MAX_COLUMNS {
             let root = group(&self.cells, [0, self.cells.len()], BLOCK, &mut self.groups);
             for target in self.groups.iter().filter(|group| group.halves.is_none()) {
                 self.blocks.push(Block::new(&self.cells, &self.groups, target, root));

@@ -27,7 +27,7 @@ const MAX_CUT: i32 = 9;
 
 /// Number of such steps after which a width goes together with another that is taken not to exist:
 /// it is 0.3⁶ of what it was.
-const CUT: i32 = 3;
+const MAX_CUT_STEPS: i32 = 3;
 
 /// Unknown besides the limits.
 #[derive(Clone, Copy)]

@@ -25,7 +25,7 @@ const MAX_LONG: usize = 8;
 const LEAST_SHARE: f64 = 1e-12;
 
 /// Longest last step of a guess, in half-widths.
-const GUESSED: f64 = 0.03;
+const MAX_GUESS_STEP: f64 = 0.03;
 
 /// Share of its start below which a guess is too narrow, and is sought again in a closer span.
 const NARROW: f64 = 1e-6;
@@ -193,7 +193,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         if self.effort == Effort::Guess {
             let guessed = Converged { on, load, error: size, load_error: size };
             trial.progress.note(sizes);
-            return Ok((size <= T::of(GUESSED))
+            return Ok((size <= T::of(MAX_GUESS_STEP))
                 .then(|| if self.is_sound(system, on) { Ok(guessed) } else { Err(Stop::Failed) }));
         }
         let judged = trial.progress.judge(sizes);

@@ -14,7 +14,7 @@ use crate::{ContactError, Ends, Interval, Real, SolveError};
 const STEPS: usize = 6;
 
 /// Step of the differences, as a share of the half-width.
-const SHARE: f64 = 1e-5;
+const STEP_SHARE: f64 = 1e-5;
 
 /// Returns the limits that meet the conditions, with their derivatives; with a given half-width,
 /// only the place is sought.
@@ -57,7 +57,7 @@ pub(super) fn differentiate<T: Real>(
             (false, None) => [half * (at_a + at_b), zero],
         })
     };
-    let share = T::of(SHARE);
+    let share = T::of(STEP_SHARE);
     let at_start = missed(start)?;
     let rate = |there: [T; 2]| [0, 1].map(|i| ((there[i] - at_start[i]) / share).component(0));
     let by_one = rate(missed(moved(start, [share, zero]))?);

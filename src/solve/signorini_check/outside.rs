@@ -2,19 +2,19 @@
 //! corners.
 
 use super::SignoriniCheck;
-use crate::gap::{Cost, LowPoint, Sampler, Survey, VAGUE, crossing};
+use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
 use crate::quadrature::panels::{self, Rises};
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Share of the load that the series of the pressures may leave uncertain before more pressures are
 /// taken; and the factor on this share if it hides whether the bodies overlap.
-const OPEN: f64 = 1e-3;
-const LESS_OPEN: f64 = 0.01;
+const MAX_TRUNCATION: f64 = 1e-3;
+const HIDING_FACTOR: f64 = 0.01;
 
 /// Share of a contact's half-width beyond its limits that is sampled with it: there the pressure
 /// inside shows that the gap opens.
-const BESIDE: f64 = 0.002;
+const SAMPLED_BEYOND: f64 = 0.002;
 
 /// Largest difference of heights and slopes on the rise over a contact, as a share of F/κ.
 const STEP: f64 = 0.01;
@@ -126,7 +126,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let after = closed_before.partition_point(|on| on.right < from);
             self.widest.is_empty() || closed_before.get(after).is_some_and(|on| on.left <= to)
         };
-        let mut share = T::of(OPEN);
+        let mut share = T::of(MAX_TRUNCATION);
         self.resolve(fields, share)?;
         let mut open = Vec::new();
         for _ in 0..MAX_ROUNDS {
@@ -136,7 +136,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let heights = first.into_iter().chain(lows).chain(last);
             open.clear();
             let is_hidden = self.overlap_at(fields, look, heights, [dips, &mut open], cost)?;
-            share *= T::of(LESS_OPEN);
+            share *= T::of(HIDING_FACTOR);
             if !dips.is_empty() {
                 return Ok(());
             }
@@ -306,7 +306,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             self.verdict(from, [height, hidden], fields.potential(x))
         } else {
             // A span this vague does not show its lowest place.
-            let vague = T::of(VAGUE) * self.found.load.abs() / self.kappa;
+            let vague = T::of(MAX_NEAR_UNCERTAINTY) * self.found.load.abs() / self.kappa;
             Some(verdict).filter(|&verdict| verdict == Verdict::Hidden && hidden > vague)?
         };
         if verdict == Verdict::Hidden {
@@ -385,7 +385,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let left = next.checked_sub(1).map_or(from, |i| contacts[i].right);
         let right = contacts.get(next).map_or(to, |on| on.left);
         let room = Interval { left, right };
-        let near = T::of(BESIDE) * contacts[contact].half_width();
+        let near = T::of(SAMPLED_BEYOND) * contacts[contact].half_width();
         let is_limit = [next > 0, next < contacts.len()];
         let near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
         let taken = fields.potential(edge);

@@ -15,7 +15,7 @@ use crate::real::same;
 use crate::{Interval, Real};
 
 /// Largest difference of equal limits, as a share of the half-width of the contact.
-const SAME: f64 = 1e-12;
+const EQUAL_LIMITS: f64 = 1e-12;
 
 /// Solutions for two bodies that have passed, under the heaviest load and under the lightest.
 #[derive(Clone, Debug)]
@@ -98,7 +98,7 @@ impl<T: Real> Checked<T> {
         let is_in_one = |own: &Interval<T>| {
             let on = contacts.get(contacts.partition_point(|on| on.right < own.centre()));
             on.is_some_and(|on| {
-                let apart = T::of(SAME) * on.half_width();
+                let apart = T::of(EQUAL_LIMITS) * on.half_width();
                 on.left <= own.left + apart && on.right >= own.right - apart
             })
         };

@@ -22,13 +22,13 @@ pub(in crate::solve) fn step_of_heights<T: Real>(
     let right = gap.nearest(contacts.right.max(overlap));
     let (mut panels, mut sampler) = (PanelSet::new(T::epsilon().sqrt()), Sampler::default());
     panels.extend(gap, Interval { left, right }).ok()?;
-    let tail = panels.panels.iter().fold(T::zero(), |tail, panel| tail.max(panel.tail));
+    let error = panels.panels.iter().fold(T::zero(), |error, panel| error.max(panel.error));
     let rises = |[from, to]: [[T; 2]; 2], highest: T| Rises {
         between: [from[0], to[0]],
         by_heights: to[1] - from[1],
         by_slopes: panels.rise(from[0], to[0]),
         highest,
-        open: T::of(8.0) * tail * (to[0] - from[0]),
+        open: T::of(8.0) * error * (to[0] - from[0]),
     };
     let mut place = |x: T| Some([x, sampler.height(gap, x).ok()?]);
     let mut ends = [place(left)?, place(right)?];

@@ -9,7 +9,7 @@ use crate::{ContactError, Interval, Real};
 const MAX_GUESSES_AT_END: usize = 2;
 
 /// Share of its span above which a contact needs no closer span.
-const COMPARABLE: f64 = 0.4;
+const LARGE_SHARE: f64 = 0.4;
 
 /// Estimate of the contact.
 struct Guess<T> {
@@ -69,7 +69,7 @@ impl<T: Real> Single<'_, '_, T> {
     fn share_in_doubt(&self, span: Interval<T>, guess: &Guess<T>) -> Option<T> {
         let Guess { on, error, doubt } = *guess;
         let share = on.half_width() / span.half_width();
-        let (broken, comparable) = (self.is_broken(on), share >= T::of(COMPARABLE));
+        let (broken, comparable) = (self.is_broken(on), share >= T::of(LARGE_SHARE));
         let doubt = if broken && !comparable { doubt.sqrt() } else { doubt };
         let relative = if broken { doubt } else { doubt / share };
         let sure = T::of(if broken { 0.1 } else { 0.02 });

@@ -2,7 +2,7 @@
 
 use super::super::capacity::capacity;
 use super::super::edges::Given;
-use super::{ABOUT, Single};
+use super::{ROUGH_UNCERTAINTY, Single};
 use crate::solution::ContactState;
 use crate::{ContactError, Interval, Real, SolveError};
 
@@ -73,7 +73,7 @@ impl<T: Real> Single<'_, '_, T> {
         from: Interval<T>,
     ) -> Result<Option<ContactState<T>>, ContactError<T>> {
         self.conditions.given = Given::Load(load);
-        let converged = self.in_full(from, T::of(ABOUT))?;
+        let converged = self.in_full(from, T::of(ROUGH_UNCERTAINTY))?;
         converged.map(|converged| self.contact_of(converged)).transpose()
     }
 }

@@ -17,11 +17,11 @@ use crate::solution::{ContactState, Solved, largest_pressure};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Ratio of the loads that enclose the one under which cells reach an end of the bodies.
-const NEAR: f64 = 1.25;
+const BRACKET_RATIO: f64 = 1.25;
 
 /// Load fractions tried (¼, then each squared) until the contacts reach no end of the bodies, and
 /// the largest number of them.
-const LESS: f64 = 0.25;
+const FIRST_FRACTION: f64 = 0.25;
 const MAX_SHARES: usize = 6;
 
 /// First step of the load, as a share of it.
@@ -173,7 +173,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let closes = |load: T, gaps: Ends<T>| {
             gaps[lower(gaps)] <= T::epsilon().sqrt() * load / conditions.kappa
         };
-        let shares = std::iter::successors(Some(low), |&load| Some(T::of(LESS) * load));
+        let shares = std::iter::successors(Some(low), |&load| Some(T::of(FIRST_FRACTION) * load));
         let (mut load, mut gaps) = shares
             .take(MAX_SHARES)
             .find_map(|load| Some((load, self.gaps_at_ends(&conditions.under(load))?.1)))?;
@@ -259,7 +259,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             let coarse = self.coarse(&conditions.under(load), FIRST_CELLS).ok()?;
             Some(self.end_reached(&coarse))
         };
-        let (mut load, mut share, mut high) = (conditions.load(), T::of(LESS), None);
+        let (mut load, mut share, mut high) = (conditions.load(), T::of(FIRST_FRACTION), None);
         let mut low = None;
         for _ in 0..=MAX_SHARES {
             match end_reached(load)? {
@@ -275,7 +275,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         // Cells reach an end even under the smallest load.
         let Some(mut low) = low else { return Some((load, high)) };
         while let Some((above, _)) = high
-            && above > T::of(NEAR) * low
+            && above > T::of(BRACKET_RATIO) * low
         {
             let load = low.sqrt() * above.sqrt();
             match end_reached(load)? {

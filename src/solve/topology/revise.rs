@@ -21,7 +21,7 @@ use crate::solution::{ContactState, Outcome, Start};
 use crate::{ContactError, Edge, Ends, Interval, Real, Side, SolveError};
 
 /// Largest uncertainty of heights, as a share of F/κ, to show by themselves where the bodies touch.
-const CLOSELY: f64 = 0.002;
+const MAX_UNCERTAINTY: f64 = 0.002;
 
 /// Sets of contacts tried before the search is given up.
 const MAX_TRIALS: usize = 12;
@@ -31,7 +31,7 @@ const MAX_DOUBLINGS: usize = 6;
 
 /// Share of a contact's half-width by which a limit leaves a corner that does not hold it. Its
 /// square is the first half-width of a contact put at an overlap, as a share of the bodies.
-const CLOSER: f64 = 0.01;
+const CORNER_STEP: f64 = 0.01;
 
 /// Result of a trial of a set of contacts.
 enum Trial<T: Real> {
@@ -213,7 +213,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             *on = on.drain(..).flat_map(apart).collect();
         }
         let half = T::of(0.5);
-        let aside = T::of(CLOSER * CLOSER) * (ends.right - ends.left);
+        let aside = T::of(CORNER_STEP * CORNER_STEP) * (ends.right - ends.left);
         for &[x, _] in &overlaps.dips {
             let at = on.partition_point(|on| on.right < x);
             let left = if at == 0 { ends.left } else { on[at - 1].right };
@@ -299,7 +299,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let Some(side) = Side::BOTH.into_iter().filter(pulls).find(lets_go) else {
             return Ok(Ok(found));
         };
-        let inward = T::of(CLOSER) * outermost(&mut newton.on, side).half_width();
+        let inward = T::of(CORNER_STEP) * outermost(&mut newton.on, side).half_width();
         let inside = if side == Side::Left { ends.left + inward } else { ends.right - inward };
         put(&mut newton.on, side, inside);
         let mut corners = corners;
@@ -343,7 +343,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let (gap, ends) = (&self.contact.gap, self.contact.ends());
         let Work { workspace, cost, .. } = &mut *self.work;
         workspace.take(gap, cost)?;
-        workspace.look.refine(gap, asked_by(conditions), T::of(CLOSELY), cost)?;
+        workspace.look.refine(gap, asked_by(conditions), T::of(MAX_UNCERTAINTY), cost)?;
         let Workspace { look, newton, cell_work, .. } = &mut **workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
         let turned = look.heights(gap);

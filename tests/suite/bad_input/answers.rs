@@ -57,15 +57,15 @@ fn what_is_asked_of_a_solution() {
     let (middle, beside) = (0.5 * (on.left + on.right), on.right + 0.1);
     for x in [NAN, INF, -INF, 1.3, -1.3, f64::MAX] {
         let outside = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Solve(SolveError::OutsideBodies { x: at, range: [-1.2, 1.2] }))
+            matches!(wrong, Wrong::Solve(SolveError::OutsideBodies { x: at, range: [-1.2, 1.2] })
                 if same(*at, x))
         };
         let misplaced = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Evaluation(EvaluationError::InvalidPosition { x: at, inside: true, interval }))
+            matches!(wrong, Wrong::Evaluation(EvaluationError::InvalidPosition { x: at, inside: true, interval })
                 if same(*at, x) && *interval == on)
         };
         let above = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Evaluation(EvaluationError::AboveSurface { x: at, depth: 0.1 }))
+            matches!(wrong, Wrong::Evaluation(EvaluationError::AboveSurface { x: at, depth: 0.1 })
                 if same(*at, x))
         };
         table.row(&format!("pressure at {x}"), 0, || Ok(pressure.at(x)?), outside);
@@ -90,7 +90,7 @@ fn what_is_asked_of_a_solution() {
         if !x.is_finite() {
             table.row(&format!("stress at {x}"), 0, || Ok(below().at(x, 0.1)?), above);
             table.row(&format!("friction {x}"), 0, || Ok(below().friction(x).map(|_| ())?), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidFriction { coefficient })) if same(*coefficient, x))
+                matches!(wrong, Wrong::Input(InputError::InvalidFriction { coefficient }) if same(*coefficient, x))
             });
         }
     }
@@ -99,16 +99,16 @@ fn what_is_asked_of_a_solution() {
             "rate at an edge",
             0,
             || Ok(rates.pressure(x)?),
-            |wrong| matches!(wrong, Wrong::Contact(ContactError::Evaluation(EvaluationError::Singular { x: at })) if *at == x),
+            |wrong| matches!(wrong, Wrong::Evaluation(EvaluationError::Singular { x: at }) if *at == x),
         );
         table.row("residual at an edge", 0, || Ok(solution.residual(x)?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Evaluation(EvaluationError::InvalidPosition { x: at, inside: true, .. })) if *at == x)
+            matches!(wrong, Wrong::Evaluation(EvaluationError::InvalidPosition { x: at, inside: true, .. }) if *at == x)
         });
     }
     for x in [middle, on.right.next_down(), on.left.next_up()] {
         for asked in [solution.gap_at(x), solution.gap_slope(x)] {
             table.row("gap inside", 0, || Ok(asked?), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Evaluation(EvaluationError::InvalidPosition { x: at, inside: false, .. }))
+                matches!(wrong, Wrong::Evaluation(EvaluationError::InvalidPosition { x: at, inside: false, .. })
                     if *at == x)
             });
         }
@@ -119,7 +119,7 @@ fn what_is_asked_of_a_solution() {
             0,
             || Ok(below().at(middle, depth)?),
             |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Evaluation(EvaluationError::AboveSurface { x, depth: d }))
+                matches!(wrong, Wrong::Evaluation(EvaluationError::AboveSurface { x, depth: d })
                     if *x == middle && same(*d, depth))
             },
         );
@@ -144,20 +144,14 @@ fn what_is_asked_of_a_solution() {
                 Ok(())
             },
             |outcome| {
-                matches!(
-                    outcome,
-                    Ok(_)
-                        | Err(Wrong::Contact(ContactError::Evaluation(
-                            EvaluationError::Integral { .. }
-                        )))
-                )
+                matches!(outcome, Ok(_) | Err(Wrong::Evaluation(EvaluationError::Integral { .. })))
             },
         );
     }
     let stress = Stress { sigma_x: -1.0, sigma_y: -2.0, tau_xy: 0.5 };
     for poisson in [NAN, INF, -INF, -TINY, -0.1, 0.5f64.next_up(), 1.0] {
         let is_it = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidPoissonRatio { ratio }))
+            matches!(wrong, Wrong::Input(InputError::InvalidPoissonRatio { ratio })
                 if same(*ratio, poisson))
         };
         table.row(&format!("σ_z with ν = {poisson}"), 0, || Ok(stress.sigma_z(poisson)?), is_it);
@@ -181,7 +175,7 @@ fn what_is_asked_of_a_solution() {
             0,
             || Ok(pressure.at_many(&x, &mut out)?),
             |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Evaluation(EvaluationError::LengthMismatch { x, pressures }))
+                matches!(wrong, Wrong::Evaluation(EvaluationError::LengthMismatch { x, pressures })
                     if (*x, *pressures) == (given, places))
             },
         );
@@ -193,13 +187,13 @@ fn what_is_asked_of_a_solution() {
     for x in [-0.2, 0.3] {
         for asked in [pressure.at(x), punch.gap_slope(x)] {
             table.row(&format!("infinite at {x}"), 0, || Ok(asked?), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Evaluation(EvaluationError::Singular { x: at })) if *at == x)
+                matches!(wrong, Wrong::Evaluation(EvaluationError::Singular { x: at }) if *at == x)
             });
         }
     }
     let below = punch.subsurface().unwrap();
     let singular = |wrong: &Wrong| {
-        matches!(wrong, Wrong::Contact(ContactError::Evaluation(EvaluationError::Singular { x }))
+        matches!(wrong, Wrong::Evaluation(EvaluationError::Singular { x })
             if [-0.2, 0.3].contains(x))
     };
     table.row("largest shear at a corner", 0, || Ok(below.max_shear()?), singular);

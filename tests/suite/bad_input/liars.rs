@@ -23,9 +23,9 @@ fn budgets_of_searches() {
                 40,
                 || Ok(contact.solve(load).map(|_| ())?),
                 |wrong| {
-                    matches!(wrong, Wrong::Contact(ContactError::Solve(SolveError::Inversion {
+                    matches!(wrong, Wrong::Solve(SolveError::Inversion {
                         body: Body::Upper, x, source: SearchError::Budget { best },
-                    })) if best.evaluations <= max_evaluations && x.abs() < 1.2 && best.x.abs() <= 1.0)
+                    }) if best.evaluations <= max_evaluations && x.abs() < 1.2 && best.x.abs() <= 1.0)
                 },
             );
             let contact = Contact::new(&Flat, &*upper).unwrap().limit_search(&**strategy);
@@ -38,10 +38,10 @@ fn budgets_of_searches() {
                     matches!(
                         outcome,
                         Ok(_)
-                            | Err(Wrong::Contact(ContactError::Solve(SolveError::LimitSearch {
+                            | Err(Wrong::Solve(SolveError::LimitSearch {
                                 source: SearchError::Budget { .. },
                                 ..
-                            })))
+                            }))
                     )
                 },
             );
@@ -150,19 +150,16 @@ fn strategies_that_lie() {
                 },
                 |outcome| match outcome {
                     Ok(_) => true,
-                    Err(Wrong::Contact(error)) => {
-                        matches!(
-                            error,
-                            ContactError::Solve(SolveError::Inversion { .. })
-                                | ContactError::Input(InputError::Profile { .. })
-                                | ContactError::Solve(
-                                    SolveError::LimitSearch { .. }
-                                        | SolveError::OutsideBodies { .. }
-                                        | SolveError::Overflow { .. }
-                                )
-                        ) || (how.contains("peak")
-                            && matches!(error, ContactError::Solve(SolveError::NoPeak { .. })))
-                    }
+                    Err(
+                        Wrong::Input(InputError::Profile { .. })
+                        | Wrong::Solve(
+                            SolveError::Inversion { .. }
+                            | SolveError::LimitSearch { .. }
+                            | SolveError::OutsideBodies { .. }
+                            | SolveError::Overflow { .. },
+                        ),
+                    ) => true,
+                    Err(Wrong::Solve(SolveError::NoPeak { .. })) => how.contains("peak"),
                     Err(_) => false,
                 },
             );

@@ -25,12 +25,12 @@ fn bodies() {
             0,
             || Ok(Contact::new(&Flat, &*curve(domain, point)).map(|_| ())?),
             |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::Profile { body: Body::Upper, source }))
+                matches!(wrong, Wrong::Input(InputError::Profile { body: Body::Upper, source })
                     if wanted(source))
             },
         );
         let below = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::Profile { body: Body::Lower, source }))
+            matches!(wrong, Wrong::Input(InputError::Profile { body: Body::Lower, source })
                 if wanted(source))
         };
         let lower = curve(domain, point);
@@ -64,7 +64,7 @@ fn bodies() {
         };
         let name = format!("X({value}) at the end");
         table.row(&name, 2, || Ok(Contact::new(&Flat, &*end).map(|_| ())?), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::Profile { source, .. })) if wanted(source))
+            matches!(wrong, Wrong::Input(InputError::Profile { source, .. }) if wanted(source))
         });
         table.row(
             &format!("X({value}) at the end"),
@@ -146,8 +146,8 @@ fn compound_profiles_that_are_none() {
             assert_eq!(faults, [ProfileError::Pieces { count: says, index: fault }; 2], "{name}");
         }
         table.row(name, 100, || solve(&compound, Control::Load(0.02)), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::Profile { body: Body::Upper,
-                source: ProfileError::Pieces { count, index } })) if (*count, *index) == (says, fault))
+            matches!(wrong, Wrong::Input(InputError::Profile { body: Body::Upper,
+                source: ProfileError::Pieces { count, index } }) if (*count, *index) == (says, fault))
         });
     }
     let compound = Compound { says: 3, has: 3, parts: parts() };
@@ -217,17 +217,18 @@ fn breakpoints() {
 #[test]
 fn curves() {
     let mut table = Table::new("Contact::solve");
-    let at = |name: &'static str,
-              upper: Profile,
-              expected: &dyn Fn(&ProfileError<f64>) -> bool,
-              table: &mut Table| {
-        for load in [Control::Load(0.05), Control::HalfWidth(0.3), Control::PeakPressure(0.1)] {
-            table.row(name, 40_000, || solve(&*upper, load), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::Profile { body: Body::Upper, source }))
+    let at =
+        |name: &'static str,
+         upper: Profile,
+         expected: &dyn Fn(&ProfileError<f64>) -> bool,
+         table: &mut Table| {
+            for load in [Control::Load(0.05), Control::HalfWidth(0.3), Control::PeakPressure(0.1)] {
+                table.row(name, 40_000, || solve(&*upper, load), |wrong| {
+                matches!(wrong, Wrong::Input(InputError::Profile { body: Body::Upper, source })
                     if expected(source))
             });
-        }
-    };
+            }
+        };
     let inside = |k: f64| (0.11..0.3).contains(&k);
     let hole = |name| {
         move |source: &ProfileError<f64>| {

@@ -18,20 +18,20 @@ fn loads_scales_and_edges() {
         for (name, says, way) in ways {
             let given = if name == "Constant" { value / PI } else { value };
             table.solve(&format!("{name}({value:e})"), 0, &contact, way(value), |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidLoad { quantity, value }))
+                matches!(wrong, Wrong::Input(InputError::InvalidLoad { quantity, value })
                     if *quantity == says && same(*value, given))
             });
         }
         table.solve(&format!("κ = {value:e}"), 0, &contact.clone().kappa(value), good, |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidKappa { kappa })) if same(*kappa, value))
+            matches!(wrong, Wrong::Input(InputError::InvalidKappa { kappa }) if same(*kappa, value))
         });
         table.solve(&format!("E* = {value:e}"), 0, &contact.clone().contact_modulus(value), good, |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidModulus { modulus })) if same(*modulus, value))
+            matches!(wrong, Wrong::Input(InputError::InvalidModulus { modulus }) if same(*modulus, value))
         });
         if value != 0.0 {
             let adhesive = contact.clone().edges(Edge::Free, Edge::Adhesive(value));
             table.solve(&format!("w = {value:e}"), 0, &adhesive, good, |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidAdhesion { work })) if same(*work, value))
+                matches!(wrong, Wrong::Input(InputError::InvalidAdhesion { work }) if same(*work, value))
             });
         }
     }
@@ -51,23 +51,17 @@ fn loads_scales_and_edges() {
                     },
                     |outcome| match outcome {
                         Ok(_) => true,
-                        Err(Wrong::Contact(error)) => {
-                            matches!(
-                                error,
-                                ContactError::Solve(
-                                    SolveError::DomainTooShort { .. }
-                                        | SolveError::HalfWidthTooLarge { .. }
-                                        | SolveError::Overflow { .. }
-                                        | SolveError::NoPeak { .. }
-                                        | SolveError::PeakTooHigh { .. }
-                                        | SolveError::NoEquilibrium { .. }
-                                        | SolveError::OutsideBodies { .. }
-                                )
-                            ) || (value < f64::MIN_POSITIVE
-                                && matches!(
-                                    error,
-                                    ContactError::Input(InputError::InvalidLoad { .. })
-                                ))
+                        Err(Wrong::Solve(
+                            SolveError::DomainTooShort { .. }
+                            | SolveError::HalfWidthTooLarge { .. }
+                            | SolveError::Overflow { .. }
+                            | SolveError::NoPeak { .. }
+                            | SolveError::PeakTooHigh { .. }
+                            | SolveError::NoEquilibrium { .. }
+                            | SolveError::OutsideBodies { .. },
+                        )) => true,
+                        Err(Wrong::Input(InputError::InvalidLoad { .. })) => {
+                            value < f64::MIN_POSITIVE
                         }
                         Err(_) => false,
                     },
@@ -90,7 +84,7 @@ fn loads_scales_and_edges() {
             let contact = contact.clone().edges(left, right);
             for load in [good, Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
                 table.solve(&format!("{edges:?}, {load:?}"), 0, &contact, load, |wrong| {
-                    matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidLimits { interval }))
+                    matches!(wrong, Wrong::Input(InputError::InvalidLimits { interval })
                         if same(interval.left, x) || same(interval.right, x))
                 });
             }
@@ -98,7 +92,7 @@ fn loads_scales_and_edges() {
     }
     for (left, right) in [(0.2, -0.2), (0.1, 0.1), (NAN, 0.1), (0.0, INF), (-INF, INF)] {
         let is_it = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidLimits { interval }))
+            matches!(wrong, Wrong::Input(InputError::InvalidLimits { interval })
                 if same(interval.left, left) && same(interval.right, right))
         };
         for load in [good, Control::HalfWidth(0.1), Control::PeakPressure(0.1)] {
@@ -113,7 +107,7 @@ fn loads_scales_and_edges() {
     for (left, right, beyond) in [(-1.5, 0.1, -1.5), (-0.1, 2.0, 2.0)] {
         let fixed = contact.clone().edges(Edge::Fixed(left), Edge::Fixed(right));
         table.solve("fixed beyond the bodies", 0, &fixed, good, |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Solve(SolveError::OutsideBodies { x, range: [-1.2, 1.2] })) if *x == beyond)
+            matches!(wrong, Wrong::Solve(SolveError::OutsideBodies { x, range: [-1.2, 1.2] }) if *x == beyond)
         });
     }
     let both = contact.clone().edges(Edge::Fixed(-0.1), Edge::Fixed(0.1));
@@ -121,9 +115,9 @@ fn loads_scales_and_edges() {
         table.solve(&format!("both limits and {load:?}"), 0, &both, load, |wrong| {
             matches!(
                 wrong,
-                Wrong::Contact(ContactError::Input(InputError::BothLimitsGiven {
+                Wrong::Input(InputError::BothLimitsGiven {
                     interval: Interval { left: -0.1, right: 0.1 }
-                }))
+                })
             )
         });
         let by_pressure = contact.clone().edge_pressure(EdgePressure::zero(1e-3, 1e-6));
@@ -159,24 +153,18 @@ fn edge_pressures_rules_and_tolerances() {
             }
             let contact = contact.clone().edge_pressure(edges);
             table.solve(&format!("{wrong_one} = {value}"), 0, &contact, load, |wrong| {
-                matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidEdgePressure { name, value: v }))
+                matches!(wrong, Wrong::Input(InputError::InvalidEdgePressure { name, value: v })
                     if *name == wrong_one && same(*v, value))
             });
         }
         let by_pressure = contact.clone().edge_pressure(good);
         table.solve(&format!("Eq. (6) under {value}"), 0, &by_pressure, Control::Load(value), |wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidLoad { quantity: "load", value: v })) if same(*v, value))
+            matches!(wrong, Wrong::Input(InputError::InvalidLoad { quantity: "load", value: v }) if same(*v, value))
         });
     }
     let far = contact.clone().edge_pressure(EdgePressure::zero(2.4, 1e-6));
     table.solve("ε_a as long as the bodies", 100, &far, load, |wrong| {
-        matches!(
-            wrong,
-            Wrong::Contact(ContactError::Input(InputError::InvalidEdgePressure {
-                name: "ε_a",
-                value: 2.4
-            }))
-        )
+        matches!(wrong, Wrong::Input(InputError::InvalidEdgePressure { name: "ε_a", value: 2.4 }))
     });
     for (segments, extrapolations) in [
         (0, 0),
@@ -192,7 +180,7 @@ fn edge_pressures_rules_and_tolerances() {
         let rule = Midpoint { segments, extrapolations, exponents: Exponents::Even };
         let contact = contact.clone().quadrature(&rule);
         let is_it = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidSegments { segments: s, extrapolations: e }))
+            matches!(wrong, Wrong::Input(InputError::InvalidSegments { segments: s, extrapolations: e })
                 if (*s, *e) == (segments, extrapolations))
         };
         table.solve(&format!("{rule:?}"), 0, &contact, load, is_it);
@@ -203,7 +191,7 @@ fn edge_pressures_rules_and_tolerances() {
         let panels = Panels { tolerance };
         let contact_by = contact.clone().quadrature(&panels);
         let is_it = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Contact(ContactError::Input(InputError::InvalidTolerance { tolerance: t }))
+            matches!(wrong, Wrong::Input(InputError::InvalidTolerance { tolerance: t })
                 if same(*t, tolerance))
         };
         table.solve(&format!("{panels:?}"), 0, &contact_by, load, is_it);
@@ -230,16 +218,16 @@ fn edge_pressures_rules_and_tolerances() {
                     &inverting,
                     load,
                     |wrong| {
-                        matches!(wrong, Wrong::Contact(ContactError::Solve(SolveError::Inversion {
+                        matches!(wrong, Wrong::Solve(SolveError::Inversion {
                             source: SearchError::Tolerance { value }, ..
-                        })) if same(*value, bad))
+                        }) if same(*value, bad))
                     },
                 );
                 let searching = contact.clone().limit_search(&**strategy);
                 table.solve(&format!("search by {tolerance:?}"), 200, &searching, load, |wrong| {
-                    matches!(wrong, Wrong::Contact(ContactError::Solve(SolveError::LimitSearch {
+                    matches!(wrong, Wrong::Solve(SolveError::LimitSearch {
                         best, source: SearchError::Tolerance { value },
-                    })) if same(*value, bad) && best.left < best.right)
+                    }) if same(*value, bad) && best.left < best.right)
                 });
             }
         }

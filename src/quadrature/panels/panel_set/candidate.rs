@@ -49,7 +49,7 @@ impl<T: Real> Candidate<T> {
     /// Tells whether the error is smaller than on the whole span. Assumes so if the numbers of
     /// nodes differ.
     pub fn falls_below(&self, whole: &Self) -> bool {
-        let less = self.panel.tail <= T::of(FALL_OF_A_ROOT) * whole.panel.tail;
+        let less = self.panel.error <= T::of(FALL_OF_A_ROOT) * whole.panel.error;
         less || self.panel.n != whole.panel.n
     }
 

@@ -9,7 +9,7 @@ use crate::{ContactError, InputError, Real};
 /// to the square root of the rounding unit, as a share of the largest slope, is always allowed:
 /// formulas lose digits, and no pressure of note depends on less. A fall by this many rounding
 /// units of a slope of 1 is allowed, too, as for `sin/cos`.
-const ALLOWED: f64 = 32.0;
+const MAX_FALL: f64 = 32.0;
 
 impl<T: Real> PanelSet<T> {
     /// Checks the slopes if the bodies declare a [`Convexity`](crate::Convexity) that makes the gap
@@ -21,11 +21,11 @@ impl<T: Real> PanelSet<T> {
         if !gap.is_convex() || self.coarse {
             return Ok(());
         }
-        let share = T::epsilon().sqrt().max(T::of(ALLOWED) * self.tolerance);
-        let least = share * self.size + T::of(ALLOWED) * T::epsilon();
+        let share = T::epsilon().sqrt().max(T::of(MAX_FALL) * self.tolerance);
+        let least = share * self.size + T::of(MAX_FALL) * T::epsilon();
         let mut before = None;
         for panel in &self.panels {
-            let allowed = T::of(ALLOWED) * panel.tail.max(panel.noise) + least;
+            let allowed = T::of(MAX_FALL) * panel.error.max(panel.noise) + least;
             let [left, right] = panel.at_ends();
             let at_seam = before.filter(|&(slope, open)| left + open + allowed < slope);
             let fall = match at_seam {

@@ -89,7 +89,7 @@ impl<T: Real> PanelSet<T> {
             }
             by_heights = [0, 1].map(|i| by_heights[i] + sign * rises[i]);
         }
-        let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.tail;
+        let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.error;
         for i in 0..2 {
             let [between, doubts] = [places, doubt].map(|all| [all[i], all[i + 1]]);
             let by_slopes = sloped[1][i] - sloped[0][i];
@@ -128,7 +128,7 @@ impl<T: Real> PanelSet<T> {
             let by_slopes = self.rise(from, to) - self.tilt * (to - from);
             let (by_heights, highest) = (heights[1] - heights[0], sampler.highest);
             let span = within(&self.panels, Interval { left: from, right: to });
-            let doubt = |sum, panel: &Panel<T>| sum + panel.tail * (panel.x[1] - panel.x[0]);
+            let doubt = |sum, panel: &Panel<T>| sum + panel.error * (panel.x[1] - panel.x[0]);
             let open = T::of(8.0) * span.iter().fold(T::zero(), doubt);
             let rises = Rises { between: [from, to], by_heights, by_slopes, highest, open };
             rises.compare_beside_noise(gap, &mut sampler)?;

@@ -14,18 +14,18 @@ use crate::{ContactError, Interval, Real};
 /// Default distance between probed places in a contact, in widths of the narrowest feature to be
 /// seen. Three widths from the top of a bump that moves the peak by 1 %, its slope is 1e-12 of the
 /// slope of the gap, and panels are more exact.
-const BETWEEN: f64 = 6.0;
+const SPACING: f64 = 6.0;
 
 /// Most rounds in which panels that miss a feature are sampled anew.
 pub(crate) const MAX_MISSED: usize = 8;
 
 /// Allowed error of a panel at a probed place, in units of the panel's uncertainty.
-const MISSED: f64 = 32.0;
+const MAX_MISMATCH: f64 = 32.0;
 
 /// Largest offset of a point from its place, as a share of the distance to the nearest node, and of
 /// the distance between places.
-const NEAR: f64 = 0.1;
-const NEAR_PLACE: f64 = 0.25;
+const OFF_NODE: f64 = 0.1;
+const OFF_PLACE: f64 = 0.25;
 
 /// Most points per node of a panel by default, however long the panel is outside the contact.
 const MAX_PARTS: usize = 1 << 10;
@@ -37,7 +37,7 @@ impl<T: Real> PanelSet<T> {
     /// # Errors
     /// Those of sampling the bodies.
     pub fn probe(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<bool, ContactError<T>> {
-        let apart = gap.spacing(on.half_width(), BETWEEN);
+        let apart = gap.spacing(on.half_width(), SPACING);
         let (tilt, before) = (self.tilt, self.cost);
         self.turn(T::zero());
         let mut missed = Vec::new();
@@ -71,7 +71,7 @@ impl<T: Real> PanelSet<T> {
         let [mut left, end] = panel.x;
         let neighbour = after.first().copied().filter(|_| !gap.is_breakpoint(end));
         let mut known = i - usize::from(i > 0 && !gap.is_breakpoint(left));
-        let room = T::of(NEAR_PLACE) * apart;
+        let room = T::of(OFF_PLACE) * apart;
         let has_room = |x: &T| *x > panel.x[0] + room && *x < end - room;
         self.initial = super::LEAST;
         for right in [x - apart, x, x + apart].into_iter().filter(has_room) {
@@ -125,13 +125,13 @@ impl<T: Real> PanelSet<T> {
         });
         let centre = T::of(0.5) * panel.x[0] + T::of(0.5) * panel.x[1];
         let places = offsets.map(|offset| centre + offset);
-        let most = T::of(NEAR_PLACE) * apart;
-        let room = std::array::from_fn(|i| (T::of(NEAR * table.spacing[i]) * reach).min(most));
+        let most = T::of(OFF_PLACE) * apart;
+        let room = std::array::from_fn(|i| (T::of(OFF_NODE * table.spacing[i]) * reach).min(most));
         let [lower, upper] = self.slopes_at(gap, panel.x, &offsets, &places, &[room; 2])?;
         let size = |i: usize| lower[i].abs() + upper[i].abs();
         let steepest = (0..N).fold(T::zero(), |most, i| most.max(size(i)));
         let least = (self.tolerance * self.size).max(T::epsilon() * steepest);
-        let allowed = T::of(MISSED) * panel.tail.max(least);
+        let allowed = T::of(MAX_MISMATCH) * panel.error.max(least);
         let is_missed = |&i: &usize| {
             let missed = (panel.value(places[i]) - (upper[i] - lower[i])).abs();
             on.contains(places[i]) && missed > allowed

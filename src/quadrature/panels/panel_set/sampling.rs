@@ -11,7 +11,7 @@ use crate::{Body, ContactError, Interval, Real, Side};
 
 /// Largest offset of a point from its node, as a share of the distance to the nearest other node:
 /// normally, and for a first estimate.
-const NEAR: [f64; 2] = [0.1, 0.45];
+const MAX_OFFSETS: [f64; 2] = [0.1, 0.45];
 
 /// Most halvings of a span to resolve a tip, which shows only in the slope at the end of a piece.
 /// (A formula may be wrong there, as signum is at 0.)
@@ -28,7 +28,7 @@ const MAX_MEASURED: usize = 4;
 
 /// Ratio of the bodies' slopes to the slope of the gap above which their rounding may exceed the
 /// tolerance.
-const STEEP: f64 = 4.0;
+const MAX_CANCELLATION: f64 = 4.0;
 
 /// Findings on a sampled panel, in one component of its numbers.
 #[derive(Clone, Copy)]
@@ -89,23 +89,23 @@ impl<T: Real> PanelSet<T> {
         let allowed = (self.tolerance * self.size.max(slope)).max(noise);
         let rounded = (T::epsilon() * bodies).max(measured);
         let verdict = judge(panel.n, &panel.series, allowed, rounded);
-        let (tail, mut next, mut split) = match verdict {
+        let (error, mut next, mut split) = match verdict {
             // The first sign of a tip looks like noise.
-            Resolution::Good(tail) | Resolution::Noise(tail)
-                if counts && self.misses_a_tip(missed.max(at_limit), allowed.max(tail)) =>
+            Resolution::Good(error) | Resolution::Noise(error)
+                if counts && self.misses_a_tip(missed.max(at_limit), allowed.max(error)) =>
             {
-                (tail, None, true)
+                (error, None, true)
             }
-            Resolution::Good(tail) if off > allowed => (tail.max(off), more_than(panel.n), true),
-            Resolution::Good(tail) => (tail.max(off), None, false),
+            Resolution::Good(error) if off > allowed => (error.max(off), more_than(panel.n), true),
+            Resolution::Good(error) => (error.max(off), None, false),
             Resolution::Noise(size) => {
                 panel.drop_noise(size);
                 (size, None, false)
             }
-            Resolution::Take(next, tail) => (tail, Some(next), true),
-            Resolution::Split(tail) => (tail, None, true),
+            Resolution::Take(next, error) => (error, Some(next), true),
+            Resolution::Split(error) => (error, None, true),
         };
-        (panel.tail, panel.noise, trial.derivatives) = (tail, noise, T::zero());
+        (panel.error, panel.noise, trial.derivatives) = (error, noise, T::zero());
         // More nodes do not help the derivatives on a panel that must be split anyway.
         if T::COMPONENTS > 1 && (next.is_some() || !split) {
             let noisy = matches!(verdict, Resolution::Noise(_));
@@ -159,11 +159,11 @@ impl<T: Real> PanelSet<T> {
         for i in 0..self.panels.len() {
             let at_limit = self.missed_at_limits(&self.panels[i]);
             let panel = &mut self.panels[i];
-            if at_limit > T::of(64.0) * panel.tail {
-                panel.tail = at_limit;
+            if at_limit > T::of(64.0) * panel.error {
+                panel.error = at_limit;
             }
             if let ([.., before, last], true) = (&panel.series[..panel.n], is_loose) {
-                panel.tail = panel.tail.max(T::of(0.25) * before.abs().max(last.abs()));
+                panel.error = panel.error.max(T::of(0.25) * before.abs().max(last.abs()));
             }
         }
     }
@@ -197,7 +197,7 @@ impl<T: Real> PanelSet<T> {
                     next = next.max(more_than(panel.n));
                 }
                 Resolution::Take(more, _) => next = next.max(Some(more)),
-                Resolution::Split(tail) => worst = worst.max(tail / size),
+                Resolution::Split(error) => worst = worst.max(error / size),
                 Resolution::Good(_) | Resolution::Noise(_) => {}
             }
         }
@@ -221,7 +221,7 @@ impl<T: Real> PanelSet<T> {
         let [first, last] = if first <= last { [first, last] } else { [centre, centre] };
         let offsets: [T; N] = std::array::from_fn(|i| reach * T::of(table.z[i]));
         let nodes = offsets.map(|offset| (centre + offset).max(first).min(last));
-        let near = T::of(NEAR[usize::from(self.coarse)]) * reach;
+        let near = T::of(MAX_OFFSETS[usize::from(self.coarse)]) * reach;
         let room: [T; N] = std::array::from_fn(|i| near * T::of(table.spacing[i]));
         let noise = self.noise.map_or([zero; 2], |noise| noise.map(|noise| noise.x));
         let rooms = noise.map(|noise| room.map(|room| room.max(noise)));
@@ -234,7 +234,7 @@ impl<T: Real> PanelSet<T> {
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
         // Unless the bodies are much steeper than the gap, their rounding is far below the
         // tolerance.
-        let steep = seen.bodies > T::of(STEEP) * seen.slope;
+        let steep = seen.bodies > T::of(MAX_CANCELLATION) * seen.slope;
         let sums = (0..if steep { N } else { 0 }).map(|i| upper[i].abs() + lower[i].abs());
         self.least = sums.reduce(T::min).map_or(zero, |least| least.min(self.least));
         for (kept, slopes) in self.slopes.iter_mut().zip([&lower, &upper]) {

@@ -19,15 +19,15 @@ impl<T: Real> PanelSet<T> {
         let [least, most] =
             [finest, T::one()].map(|share| self.tolerated(left, right, allowed, share));
         if missed > least && missed <= most {
-            left.tail = left.tail.max(missed);
-            right.tail = right.tail.max(missed);
+            left.error = left.error.max(missed);
+            right.error = right.error.max(missed);
         }
     }
 
     /// Returns the allowed mismatch of two neighbours, given a share of the allowed error.
     fn tolerated(&self, left: &Panel<T>, right: &Panel<T>, allowed: T, share: T) -> T {
         let allowed = share * allowed.max(self.tolerance * self.size);
-        T::of(16.0) * (left.tail + right.tail + allowed)
+        T::of(16.0) * (left.error + right.error + allowed)
     }
 }
 

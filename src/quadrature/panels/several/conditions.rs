@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// Longest span in a gap for one Gauss rule, in the variable t of `x = β + 2 L sinh²(t/2)`: the
 /// next singularity lies at least a third as far beyond its end.
-const STRETCH: f64 = 2.0;
+const MAX_GAUSS_SPAN: f64 = 2.0;
 
 /// Limit on the number of such spans: more than any gap and contact of finite widths have.
 const MAX_STRETCHES: usize = 1000;
@@ -219,7 +219,7 @@ impl<T: Real> Several<T> {
         {
             // Half the gap.
             let last = T::of(2.0) * (width / (T::of(4.0) * on.half_width())).sqrt().asinh();
-            let is_enough = |&n: &usize| T::of(STRETCH) * T::count(n) >= last;
+            let is_enough = |&n: &usize| T::of(MAX_GAUSS_SPAN) * T::count(n) >= last;
             let pieces = (1..MAX_STRETCHES).find(is_enough).unwrap_or(1);
             let step = last / T::count(pieces);
             for piece in 0..pieces {

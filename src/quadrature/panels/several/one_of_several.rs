@@ -23,18 +23,18 @@ const MAX_PANELS: usize = 1 << 12;
 
 /// Margin of the sampled span beyond a contact, as a share of its width, so that its limits can be
 /// moved.
-const ROOM: f64 = 0.1;
+const SPAN_MARGIN: f64 = 0.1;
 
 /// Smallest width of a contact, as a share of the sampled span; a narrower one is sampled anew.
-const NARROWER: f64 = 0.4;
+const LEAST_WIDTH: f64 = 0.4;
 
 /// Smallest width of the sampled span, as a share of the contact; a narrower span is forgotten. A
 /// panel next to a corner, as narrow as a share s of the contact, costs eps/√s in the limits.
-const REMNANT: f64 = 1e-3;
+const LEAST_SPAN: f64 = 1e-3;
 
 /// Distance from a contact, in half-widths, from which on the cosine series of its panels is exact
 /// to rounding: its error there is u²⁴.
-const AFAR: f64 = 2.0;
+const FAR_DISTANCE: f64 = 2.0;
 
 #[derive(Clone)]
 pub(super) struct OneOfSeveral<T> {
@@ -100,14 +100,14 @@ impl<T: Real> OneOfSeveral<T> {
         let plain = on.plain();
         let close = |have: Interval<T>| {
             let [on, have] = [on, have].map(|on| on.half_width());
-            on >= T::of(NARROWER) * have && have >= T::of(REMNANT) * on
+            on >= T::of(LEAST_WIDTH) * have && have >= T::of(LEAST_SPAN) * on
         };
         let is_close = self.panel_set.interval().is_some_and(close);
         if !(is_close && self.panel_set.covers(plain)) {
             if !is_close {
                 self.clear(true);
             }
-            let room = T::of(ROOM) * (plain.right - plain.left);
+            let room = T::of(SPAN_MARGIN) * (plain.right - plain.left);
             let [from, to] = ends;
             let half = T::of(0.5);
             // At most half the way to an end, where the slope may be infinite.
@@ -200,7 +200,7 @@ impl<T: Real> OneOfSeveral<T> {
     pub fn outside(&self, x: T, distance: T) -> T {
         let half_width = self.on.half_width();
         let beyond = distance / half_width;
-        if self.panels.len() > 1 && beyond < T::of(AFAR) {
+        if self.panels.len() > 1 && beyond < T::of(FAR_DISTANCE) {
             return self.far.outside(x, distance, self.on);
         }
         let root = (beyond * (beyond + T::of(2.0))).sqrt();
@@ -257,7 +257,7 @@ fn multiply<T: Real>(
     tolerance: T,
 ) -> (Panel<T>, bool, bool) {
     let half = T::of(0.5);
-    let least = size_for((panel.counting + 4).min(MAX_SIZE)).max(8);
+    let least = size_for((panel.length + 4).min(MAX_SIZE)).max(8);
     let (mut product, mut resolved, mut moved) = (Panel::new(x), false, false);
     for n in SIZES.into_iter().filter(|&n| n >= least) {
         let table = Table::of(n);
@@ -281,8 +281,8 @@ fn multiply<T: Real>(
         let [all, last] = [size(&product.series[..n]), size(&product.series[n - 2..n])];
         // The rounding of x counts where the weight is steep.
         let bend = (values[n - 1] - values[0]).abs() / (x[1] - x[0]);
-        let noise = panel.tail * largest + T::epsilon() * x[0].abs().max(x[1].abs()) * bend;
-        product.tail = noise + last;
+        let noise = panel.error * largest + T::epsilon() * x[0].abs().max(x[1].abs()) * bend;
+        product.error = noise + last;
         // Halving does not mend values that are not finite.
         resolved = last <= half * tolerance * all + noise || !all.is_finite();
         // The derivatives of dual numbers must be resolved, too: the weight bends more as a limit

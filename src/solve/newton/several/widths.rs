@@ -1,6 +1,6 @@
 //! Widths of contacts and of the gaps between them, and limits on their change in one step.
 
-use super::{CUT, MAX_CUT, NewtonSeveral, Width};
+use super::{MAX_CUT, MAX_CUT_STEPS, NewtonSeveral, Width};
 use crate::numerics::LinearSystem;
 use crate::{Interval, Real};
 use std::cmp::Ordering;
@@ -12,7 +12,7 @@ const LEAST_LEFT: f64 = 0.3;
 const MAX_GROWTH: f64 = 4.0;
 
 /// Width below which a gap counts as closed, in units of rounding of x.
-const NOTHING: f64 = 64.0;
+const CLOSED_WIDTH: f64 = 64.0;
 
 impl<T: Real> NewtonSeveral<T> {
     /// Holds each width that the step would take below its least at the least, moves all other
@@ -174,7 +174,7 @@ impl<T: Real> NewtonSeveral<T> {
 
     /// Tells whether a contact has vanished, or the gap after it has closed.
     pub(in super::super::super) fn is_gone(&self, i: usize, is_gap: bool) -> bool {
-        let is_cut = |i: Width| self.cut[i] >= CUT;
+        let is_cut = |i: Width| self.cut[i] >= MAX_CUT_STEPS;
         match is_gap {
             true => i + 1 < self.on.len() && (is_cut(2 * i + 1) || self.is_nothing(i)),
             false => is_cut(2 * i) || self.on[i].left >= self.on[i].right,
@@ -190,7 +190,7 @@ impl<T: Real> NewtonSeveral<T> {
     /// x.
     fn rounding(&self, i: usize) -> T {
         let size = self.on[i].left.abs().max(self.on[i + 1].right.abs());
-        T::of(NOTHING) * T::epsilon() * size
+        T::of(CLOSED_WIDTH) * T::epsilon() * size
     }
 
     /// Returns the width of the gap after a contact.
