@@ -37,7 +37,7 @@ struct Pressed {
 }
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    let body = Spline::fitted(&measurement(), Fit { noise: NOISE, ..Fit::default() })?;
+    let body = Spline::fitted(&measurement(), Fit { smooth: true, ..Fit::default() })?;
     let contact = Contact::new(&Flat, &body)?.contact_modulus(MODULUS);
     let mut solver = Solver::new();
     let mut all = Vec::with_capacity(COUNT);

@@ -233,6 +233,14 @@ impl<'b, T: Real> Gap<'b, T> {
         Ok(Self { bodies, inversion, range, number, convex, tilt, watch, resolution })
     }
 
+    /// Returns the standard deviation that noise of measurements leaves in a sum of slopes of the
+    /// gap, each times a weight; `None` if it is not known.
+    pub(crate) fn slope_deviation(&self, x: &[T], weights: &[T]) -> Option<T> {
+        self.bodies.iter().try_fold(T::zero(), |sum, body| {
+            Some(sum.hypot(body.shape.profile().slope_deviation(x, weights)?))
+        })
+    }
+
     pub(crate) fn with_inversion(self, inversion: &'b dyn LimitSearch<T>) -> Self {
         Self { inversion, ..self }
     }

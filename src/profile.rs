@@ -169,6 +169,12 @@ pub trait ParametricProfile<T: Real>: Send + Sync {
         Convexity::Unknown
     }
 
+    /// Returns the standard deviation that noise of a measurement leaves in `Σ wᵢ dY/dX(xᵢ)`, given
+    /// the xᵢ and the wᵢ; `None` if it is not known. By default the curve is exact: 0.
+    fn slope_deviation(&self, _x: &[T], _weights: &[T]) -> Option<T> {
+        Some(T::zero())
+    }
+
     /// Returns the number of smooth pieces of a compound profile; 0 (the default) for a profile
     /// that is smooth itself.
     fn pieces(&self) -> usize {
@@ -219,6 +225,7 @@ macro_rules! forward {
 forward! {
     domain() -> [T; 2]; at(k: T) -> CurvePoint<T>; slope_at(x: T) -> Option<T>;
     at_many(k: &[T], points: &mut [CurvePoint<T>]); convexity() -> Convexity;
+    slope_deviation(x: &[T], weights: &[T]) -> Option<T>;
     pieces() -> usize; piece(index: usize) -> Option<Piece<'_, T>>;
     x(k: T) -> T; y(k: T) -> T; dx(k: T) -> T; dy(k: T) -> T;
 }

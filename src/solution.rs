@@ -29,6 +29,8 @@ mod partial_slip;
 
 mod load_rates;
 
+mod uncertainty;
+
 mod gap_outside;
 
 mod residual;
@@ -58,6 +60,7 @@ pub use report::{Attempt, Outcome, Report, Start};
 pub(crate) use solved::Solved;
 pub use steepness::STEEPEST_HALF_PLANE;
 pub use summary::Summary;
+pub use uncertainty::Uncertainty;
 
 /// Solved contact: its limits, and on request its pressure.
 ///

@@ -60,6 +60,12 @@ pub enum EvaluationError<T: Real> {
         /// Reason, for the message.
         why: &'static str,
     },
+    /// The uncertainty by the noise of measured points is not known.
+    #[error("the uncertainty by the noise of measured points is not known: {why}")]
+    NoUncertainty {
+        /// Reason, for the message.
+        why: &'static str,
+    },
     /// The number of places for pressures is not the number of abscissae.
     #[error(
         "{x} abscissae, but {pressures} places for pressures: give as many of the one as of the other"

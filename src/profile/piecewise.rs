@@ -231,6 +231,17 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> 
         self.convexity
     }
 
+    fn slope_deviation(&self, x: &[T], weights: &[T]) -> Option<T> {
+        let mut parts = self.parts.iter().zip(&self.ends);
+        // Measured independently of each other.
+        parts.try_fold(T::zero(), |deviation, (part, (_, ends))| {
+            let is_inside = |x: T| x > ends[0].x && x <= ends[1].x;
+            let own = x.iter().zip(weights).filter(|(x, _)| is_inside(**x));
+            let (x, weights): (Vec<T>, Vec<T>) = own.unzip();
+            Some(deviation.hypot(part.slope_deviation(&x, &weights)?))
+        })
+    }
+
     fn pieces(&self) -> usize {
         self.smooth.len()
     }

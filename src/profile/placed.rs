@@ -225,4 +225,9 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Placed<T, P> {
         let slope = self.curve.slope_at((x - self.placement.shift[0]) / a)?;
         Some(slope * (d / a))
     }
+
+    fn slope_deviation(&self, _: &[T], _: &[T]) -> Option<T> {
+        // Without places a deviation tells only whether the curve is exact.
+        self.curve.slope_deviation(&[], &[])
+    }
 }

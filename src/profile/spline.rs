@@ -1,8 +1,8 @@
 //! A profile through measured points.
 //!
-//! Written here because no crate was found that takes any [`Real`] and smooths to a given noise.
-//! `csaps` smooths by a weight between 0 and 1, through the normal equations, which lose all digits
-//! where the smoothing reaches over some ten thousand points.
+//! Written here because no crate was found that takes any [`Real`], estimates the noise and returns
+//! the covariance of the curve. `csaps` smooths by a given weight, through the normal equations,
+//! which lose all digits where the smoothing reaches over some ten thousand points.
 
 mod points;
 mod slopes;
@@ -14,18 +14,21 @@ pub use points::SplineError;
 
 use super::{CurvePoint, ParametricProfile, Piece, Piecewise, PiecewiseError, Placed, Placement};
 use crate::Real;
+use smooth::Smooth;
+use std::sync::Arc;
 
 /// Settings of the fit of a [`Spline`] to points.
 ///
 /// ```
 /// use linecontact::profile::{Fit, Spline};
 ///
-/// // A parabola, with a ripple of 2e-6 that is none of it.
-/// let point = |i: i32| [0.01 * f64::from(i), 5e-5 * f64::from(i * i) + 2e-6 * f64::from(i % 2)];
-/// let points: Vec<_> = (-100..=100).map(point).collect();
-/// let smooth = Spline::fitted(&points, Fit { noise: 1e-6, ..Fit::default() })?;
+/// // A parabola, in steps of 2e-6.
+/// let height = |x: f64| (x * x / 2.0 / 2e-6).round() * 2e-6;
+/// let points: Vec<_> = (-100..=100).map(|i| 0.01 * f64::from(i)).map(|x| [x, height(x)]).collect();
+/// let smooth = Spline::fitted(&points, Fit { smooth: true, ..Fit::default() })?;
 /// # use linecontact::ParametricProfile;
-/// assert!((smooth.slope_at(0.3).unwrap() - 0.3).abs() < 1e-3);
+/// assert!((smooth.slope_at(0.3).unwrap() - 0.3).abs() < 1e-5);
+/// assert!((smooth.noise() / 0.58e-6 - 1.0).abs() < 0.3); // 2e-6/sqrt(12)
 /// # Ok::<(), linecontact::profile::SplineError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,18 +38,16 @@ use crate::Real;
     serde(default, deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
 )]
 pub struct Fit<T> {
-    /// Standard deviation of the heights, in their own unit: the noise of the measuring machine. Of
-    /// all curves at this distance from the points the smoothest is taken, with the least
-    /// `∫ Y''² dX`; the sum of the squared distances may be up to `N + sqrt(2 N)` in units of the
-    /// noise (Reinsch, *Numer. Math.* 10, 1967, 177). An even smoother curve is taken where it is
-    /// expected to be nearer to the surface. With 0, the default, the curve goes through the
-    /// points.
+    /// True to smooth the points, false (the default) for a curve through them.
     ///
-    /// A tenth too much is better than a tenth too little; either changes the pressure little. With
-    /// much less than half of the true noise the curve follows the noise: it is then a rough
-    /// surface, with many contacts and several times the pressure. Estimates and checks are then
-    /// for this surface.
-    pub noise: T,
+    /// The noise of the measurement and the smoothing that it requires are estimated from the
+    /// points, by restricted maximum likelihood; [`Spline::noise`] returns the noise, and
+    /// [`Solution::uncertainty`](crate::Solution::uncertainty) what it leaves open. The penalty is
+    /// `∫ Y'''² dX`, so that a round body is smoothed over all of its points.
+    ///
+    /// Noise means heights that are off independently of each other. Roughness that neighbouring
+    /// points share is part of the body, and is kept.
+    pub smooth: bool,
     /// Distance at which a point is taken for an error of the measurement: its distance from the
     /// cubic through its four neighbours, in standard deviations. These are estimated from the
     /// median of all such distances, or from the 21 points around it if their median is larger.
@@ -58,7 +59,7 @@ pub struct Fit<T> {
 
 impl<T: Real> Default for Fit<T> {
     fn default() -> Self {
-        Self { noise: T::zero(), outliers: Some(T::of(10.0)) }
+        Self { smooth: false, outliers: Some(T::of(10.0)) }
     }
 }
 
@@ -66,8 +67,8 @@ impl<T: Real> Default for Fit<T> {
 /// `X = k`.
 ///
 /// The points are in order of rising x, at any distances. At either end the outermost two cubics
-/// are one (de Boor's "not a knot"), so that four points of a cubic give that cubic; a smoothed
-/// spline ends straight.
+/// are one (de Boor's "not a knot"), so that four points of a cubic give that cubic. A smoothed
+/// spline has even knots, as many as the smoothing needs.
 ///
 /// The third derivative jumps at the knots, which are the breakpoints of the profile. A contact
 /// costs some ten samples for each knot in it; no curve is evaluated for them, as the slope is
@@ -89,6 +90,10 @@ impl<T: Real> Default for Fit<T> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Spline<T> {
     cubics: Vec<Cubic<T>>,
+    noise: T,
+    /// Uncertainty of a smoothed spline; it is not stored.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    smooth: Option<Arc<Smooth<T>>>,
 }
 
 /// Part of the spline between two knots.
@@ -117,46 +122,58 @@ impl<T: Real> Spline<T> {
     /// use linecontact::profile::{Fit, Spline};
     /// use linecontact::{Contact, Control, Flat};
     ///
-    /// let points = (-40..=40).map(|i| 0.025 * f64::from(i)).map(|x| [x, x * x / 2.0]);
-    /// let points: Vec<[f64; 2]> = points.collect();
-    /// let body = Spline::fitted(&points, Fit { noise: 1e-7, ..Fit::default() })?;
+    /// // Heights of a parabola, off by 1e-5 up and down.
+    /// let height = |i: i32| 2.5e-5 * f64::from(i * i) / 2.0 + 1e-5 * f64::from(i * i * 7 % 5 - 2);
+    /// let points: Vec<_> = (-200..=200).map(|i| [0.005 * f64::from(i), height(i)]).collect();
+    /// let body = Spline::fitted(&points, Fit { smooth: true, ..Fit::default() })?;
     /// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
-    /// assert!((solution.a() / 0.2 - 1.0).abs() < 1e-4); // of the parabola, sqrt(2 F R/κ)
+    /// let off = solution.hull().half_width() - 0.2; // of the parabola, sqrt(2 F R/κ)
+    /// assert!(off.abs() < 1e-3 && off.abs() < 3.0 * solution.uncertainty()?.half_width);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
     /// [`SplineError`], with the row of the faulty point.
     pub fn fitted(points: &[[T; 2]], fit: Fit<T>) -> Result<Self, SplineError<T>> {
-        if !(fit.noise.is_finite() && fit.noise >= T::zero()) {
-            return Err(SplineError::Noise { noise: fit.noise });
-        }
         points::check(points)?;
         if let Some(most) = fit.outliers {
             points::check_outliers(points, most)?;
         }
-        if fit.noise > T::zero() {
-            Self::of(points, &smooth::smooth(points, fit.noise)?)
-        } else {
-            let slopes = slopes::slopes(points);
-            let knots: Vec<_> =
-                points.iter().zip(slopes).map(|(&[_, y], slope)| [y, slope]).collect();
-            Self::of(points, &knots)
+        if fit.smooth {
+            return Self::smoothed(points);
         }
+        let knots = points.iter().zip(slopes::slopes(points)).map(|(&[_, y], slope)| [y, slope]);
+        let x: Vec<T> = points.iter().map(|point| point[0]).collect();
+        Self::of(&x, &knots.collect::<Vec<_>>())
+    }
+
+    fn smoothed(points: &[[T; 2]]) -> Result<Self, SplineError<T>> {
+        let smooth = Smooth::new(points);
+        let x: Vec<T> = (0..smooth.knots.len()).map(|knot| smooth.place(knot)).collect();
+        let [before, x_last] = [x[0], x[x.len() - 1]];
+        let overflow = SplineError::Overflow { row: points.len(), x: x_last, before };
+        let spline = Self::of(&x, &smooth.knots).map_err(|_| overflow)?;
+        Ok(Self { noise: smooth.noise, smooth: Some(Arc::new(smooth)), ..spline })
+    }
+
+    /// Returns the standard deviation of the heights, in their own unit, estimated by the fit; 0
+    /// for a curve through its points.
+    pub fn noise(&self) -> T {
+        self.noise
     }
 
     /// Builds the spline from height and slope at each knot.
-    fn of(points: &[[T; 2]], knots: &[[T; 2]]) -> Result<Self, SplineError<T>> {
-        let cubic = |(x, y): (&[[T; 2]], &[[T; 2]])| {
-            let (x, [from, to]) = ([x[0][0], x[1][0]], [y[0], y[1]]);
+    fn of(x: &[T], knots: &[[T; 2]]) -> Result<Self, SplineError<T>> {
+        let cubic = |(x, y): (&[T], &[[T; 2]])| {
+            let (x, [from, to]) = ([x[0], x[1]], [y[0], y[1]]);
             let (h, two, three) = (x[1] - x[0], T::of(2.0), T::of(3.0));
             let chord = (to[0] - from[0]) / h;
             let second = (three * chord - two * from[1] - to[1]) / h;
             let third = (from[1] + to[1] - two * chord) / h / h;
             Cubic { x, coefficients: [from[0], from[1], second, third] }
         };
-        let cubics = points.windows(2).zip(knots.windows(2)).map(cubic).collect();
-        let spline = Self { cubics };
+        let cubics = x.windows(2).zip(knots.windows(2)).map(cubic).collect();
+        let spline = Self { cubics, noise: T::zero(), smooth: None };
         // Coefficients that have overflowed or vanished do not lead to the next knot.
         match spline.first_gap(knots) {
             Some((i, _)) => {
@@ -182,6 +199,8 @@ impl<T: Real> Spline<T> {
 
     /// Places the body: moved, mirrored, flipped, turned or scaled.
     ///
+    /// The uncertainty of a smoothed spline is lost: place the points instead, before the fit.
+    ///
     /// ```
     /// use linecontact::profile::{Parabola, Placement, Spline};
     /// use linecontact::{Contact, Control};
@@ -201,7 +220,9 @@ impl<T: Real> Spline<T> {
         self,
         placement: Placement<T>,
     ) -> Result<Piecewise<T, Placed<T, impl ParametricProfile<T>>>, PiecewiseError<T>> {
-        Piecewise::new(self.cubics)?.placed(placement)
+        let is_exact = self.noise.is_zero();
+        let part = |cubic| Part { cubic, is_exact };
+        Piecewise::new(self.cubics.into_iter().map(part).collect())?.placed(placement)
     }
 
     fn cubic(&self, x: T) -> &Cubic<T> {
@@ -225,6 +246,30 @@ impl<T: Real> ParametricProfile<T> for Cubic<T> {
     }
 }
 
+/// Cubic of a spline that is placed.
+struct Part<T> {
+    cubic: Cubic<T>,
+    is_exact: bool,
+}
+
+impl<T: Real> ParametricProfile<T> for Part<T> {
+    fn domain(&self) -> [T; 2] {
+        self.cubic.x
+    }
+
+    fn at(&self, k: T) -> CurvePoint<T> {
+        self.cubic.at(k)
+    }
+
+    fn slope_at(&self, x: T) -> Option<T> {
+        self.cubic.slope_at(x)
+    }
+
+    fn slope_deviation(&self, _: &[T], _: &[T]) -> Option<T> {
+        self.is_exact.then(T::zero)
+    }
+}
+
 impl<T: Real> Cubic<T> {
     fn slope(&self, t: T) -> T {
         let [_, b, c, d] = self.coefficients;
@@ -243,6 +288,13 @@ impl<T: Real> ParametricProfile<T> for Spline<T> {
 
     fn slope_at(&self, x: T) -> Option<T> {
         self.cubic(x).slope_at(x)
+    }
+
+    fn slope_deviation(&self, x: &[T], weights: &[T]) -> Option<T> {
+        match &self.smooth {
+            Some(smooth) => Some(smooth.slope_deviation(x, weights)),
+            None => self.noise.is_zero().then(T::zero),
+        }
     }
 
     fn pieces(&self) -> usize {

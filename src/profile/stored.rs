@@ -49,5 +49,9 @@ stored! {
         tolerance: T
     } => Self::with_tolerance(parts, tolerance);
     Placement<T> { matrix: [[T; 2]; 2], shift: [T; 2] } => Self::read(matrix, shift);
-    Spline<T> { cubics: Vec<Cubic<T>> } => Self::of_cubics(cubics);
+    Spline<T> {
+        cubics: Vec<Cubic<T>>,
+        #[serde(default = "T::zero")]
+        noise: T
+    } => Self::of_cubics(cubics, noise);
 }

@@ -60,7 +60,7 @@ fn bodies_are_kept() {
     let points: Vec<_> = (-9..=9).map(|i| 0.13 * f64::from(i)).map(|x| [x, x.cos()]).collect();
     is_the_same_body(&Spline::through(&points).unwrap());
     let rough: Vec<_> = (0..19).map(|i| [points[i][0], points[i][1] + noise(i as i32)]).collect();
-    let fit = Fit { noise: 1e-4, outliers: None };
+    let fit = Fit { smooth: true, outliers: None };
     is_the_same_body(&Spline::fitted(&rough, fit).unwrap());
     let level: Vec<_> = points.iter().map(|point| [point[0], 0.0]).collect();
     is_the_same_body(&Spline::through(&level).unwrap());
@@ -179,7 +179,7 @@ fn settings_are_kept_and_have_their_defaults() {
     is_kept(Bisection { tolerance: StoppingCriteria::relative(1e-3) });
     is_kept(Panels { tolerance: 1e-7 });
     is_kept(Midpoint { exponents: Exponents::Even, ..Midpoint::DEFAULT });
-    is_kept(Fit { noise: 0.1, outliers: None::<f64> });
+    is_kept(Fit { smooth: true, outliers: None::<f64> });
     is_kept(Edge::<f64>::Free);
     is_kept(Edge::FreeUntil(0.3));
     is_kept(EdgePressure::zero(0.1, 1e-3));

@@ -479,7 +479,6 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
     }
     for (error, words) in [
         (SplineError::NotFinite { row: 12, x: 1.5, y: f64::NAN }, "remove the row"),
-        (SplineError::NothingLeft { noise: 1.5, line: 2.5 }, "give less noise"),
         (SplineError::Duplicate { row: 12, x: 1.5 }, "row 12"),
         (SplineError::Unsorted { row: 12, x: 1.5, before: 2.5 }, "after 2.5"),
     ] {

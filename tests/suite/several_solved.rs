@@ -351,18 +351,15 @@ fn measured(wave: f64) -> Vec<[f64; 2]> {
 fn measured_rollers_with_waves() {
     let modulus = 115e3;
     for wave in [0.5e-3, 3e-3] {
-        let points = measured(wave);
-        for noise in [0.05e-3, 0.1e-3] {
-            let fit = Fit { noise, ..Fit::default() };
-            let body = Spline::fitted(&points, fit).unwrap();
-            let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(modulus);
-            for load in [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 300.0, 1000.0] {
-                let name = format!("wave {wave}, noise {noise}, {load} N/mm");
-                let solution = contact.solve(Control::Load(load));
-                let solution = solution.unwrap_or_else(|error| panic!("{name}: {error}"));
-                let kappa = PI / 2.0 * modulus;
-                assert_contact(&name, [&Flat, &body], kappa, [-3.0, 3.0], &[], &solution);
-            }
+        let fit = Fit { smooth: true, ..Fit::default() };
+        let body = Spline::fitted(&measured(wave), fit).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(modulus);
+        for load in [2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 300.0, 1000.0] {
+            let name = format!("wave {wave}, {load} N/mm");
+            let solution = contact.solve(Control::Load(load));
+            let solution = solution.unwrap_or_else(|error| panic!("{name}: {error}"));
+            let kappa = PI / 2.0 * modulus;
+            assert_contact(&name, [&Flat, &body], kappa, [-3.0, 3.0], &[], &solution);
         }
     }
 }

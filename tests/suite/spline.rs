@@ -3,9 +3,13 @@
 
 use crate::common::NanSafe;
 use approx::assert_relative_eq;
-use linecontact::profile::{Fit, Spline, SplineError};
+use linecontact::profile::{Fit, Placement, Spline, SplineError};
 use linecontact::reference::{ClosedForm, Ellipse, Hertz};
-use linecontact::{Contact, Control, Flat, ParametricProfile};
+use linecontact::{
+    Contact, ContactError, Control, Curve, CurvePoint, EvaluationError, Flat, ParametricProfile,
+    Piecewise, Uncertainty,
+};
+use nalgebra::{DMatrix, DVector};
 
 /// Approximately normal random numbers: sums of twelve from a linear congruential generator.
 struct Noise(u64);
@@ -128,40 +132,90 @@ fn solves_agree_with_the_shape_that_the_points_are_of() {
     assert_relative_eq!(pressure, form.pressure(0.3, 1.0), epsilon = 0.0, max_relative = 1e-8);
 }
 
-/// Returns the root mean square distance that Reinsch allows, in units of the noise.
-fn reinsch(points: usize) -> f64 {
-    (1.0 + (2.0 / points as f64).sqrt()).sqrt()
+/// Likelihood of points by dense matrices: of the curve, the noise and a sum of slopes.
+struct Dense {
+    /// Height at each point.
+    heights: DVector<f64>,
+    noise: f64,
+    deviation: f64,
+    unlikelihood: f64,
 }
 
-/// `Σ (Y - y)² + α ∫ Y''²` is least if Y'' is zero at the ends, and at each knot the jump of Y'''
-/// times α is the height of the point above the curve. The problem is convex: the curve is unique.
-#[test]
-fn the_smoothed_spline_is_the_smoothest() {
-    let mut random = Noise(7);
-    let mut points = uneven(40, |x| 3.0 + 0.5 * x + (2.0 * x).cos());
-    points.iter_mut().for_each(|point| point[1] += 0.02 * random.normal());
-    for noise in [0.002, 0.02, 0.1] {
-        let spline = Spline::fitted(&points, Fit { noise, outliers: None }).unwrap();
-        let left: Vec<f64> = points.iter().map(|&[x, y]| y - spline.at(x).y).collect();
-        let rms = (left.iter().map(|d| d * d).sum::<f64>() / points.len() as f64).sqrt();
-        let allowed = noise * reinsch(points.len());
-        assert_relative_eq!(rms, allowed, epsilon = 0.0, max_relative = 1.1e-4);
+impl Dense {
+    /// Fits `spans` spans, with the penalty of weight α in units of a span, to points in [0, 1].
+    fn new(points: &[[f64; 2]], spans: usize, alpha: f64, slopes: &[[f64; 2]]) -> Self {
+        let (n, k) = (points.len(), spans as f64);
+        let b = DMatrix::from_fn(n, spans + 3, |i, j| basis(k * points[i][0] - j as f64 + 3.0));
+        let third = [-1.0, 3.0, -3.0, 1.0];
+        let bend = DMatrix::from_fn(spans, spans + 3, |i, j| {
+            j.checked_sub(i).and_then(|d| third.get(d)).copied().unwrap_or(0.0)
+        });
+        let y = DVector::from_iterator(n, points.iter().map(|point| point[1]));
+        let equations = b.transpose() * &b + bend.transpose() * &bend * alpha;
+        let factors = equations.cholesky().unwrap();
+        let c = factors.solve(&(b.transpose() * &y));
+        let heights = &b * &c;
+        let rest = (&y - &heights).norm_squared() + alpha * (&bend * &c).norm_squared();
+        let free = (n - 3) as f64;
+        let noise = (rest / free).sqrt();
+        let rate = |u: f64| 1e5 * (basis(u + 5e-6) - basis(u - 5e-6));
+        let weights = DVector::from_fn(spans + 3, |j, _| {
+            slopes.iter().map(|[x, w]| w * k * rate(k * x - j as f64 + 3.0)).sum()
+        });
+        let deviation = noise * weights.dot(&factors.solve(&weights)).sqrt();
+        let determinant: f64 = factors.l().diagonal().iter().map(|l| 2.0 * l.ln()).sum();
+        let unlikelihood = free * rest.ln() + determinant - k * alpha.ln();
+        Self { heights, noise, deviation, unlikelihood }
+    }
+}
 
-        let bends = bends(&spline);
-        let n = bends.len();
-        let largest = bends.iter().map(|bend| bend.0[0].abs()).fold(0.0, f64::max);
-        assert!(bends[0].0[0].abs() < 1e-9 * largest && bends[n - 1].0[1].abs() < 1e-9 * largest);
-        let jumps: Vec<f64> = (0..=n)
-            .map(|i| bends.get(i).map_or(0.0, |b| b.1) - if i > 0 { bends[i - 1].1 } else { 0.0 })
-            .collect();
-        let square = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>().sqrt();
-        let alpha = square(&left) / square(&jumps);
-        for (left, jump) in left.iter().zip(jumps) {
-            assert!((left - alpha * jump).abs() < 1e-8 * noise, "{noise}: {left} {jump}");
+/// Returns the cubic B-spline on the knots 0, 1, 2, 3 and 4, by truncated powers.
+fn basis(u: f64) -> f64 {
+    let power = |from: f64| (u - from).max(0.0).powi(3);
+    if u >= 4.0 {
+        return 0.0;
+    }
+    (power(0.0) - 4.0 * power(1.0) + 6.0 * power(2.0) - 4.0 * power(3.0)) / 6.0
+}
+
+#[test]
+fn the_smoothed_spline_is_the_most_likely() {
+    let mut random = Noise(7);
+    for (noise, amplitude) in [(0.02, 1.0), (0.002, 1.0), (0.1, 0.3)] {
+        let mut points: Vec<_> = uneven(60, |_| 0.0);
+        let [from, to] = [points[0][0], points[59][0]];
+        for [x, y] in &mut points {
+            *x = (*x - from) / (to - from);
+            *y = 3.0 + 0.5 * *x + amplitude * (6.0 * *x).cos() + noise * random.normal();
         }
-        for pair in bends.windows(2) {
-            assert!((pair[0].0[1] - pair[1].0[0]).abs() < 1e-9 * largest, "{pair:?}");
+        let fit = Fit { smooth: true, outliers: None };
+        let spline = Spline::fitted(&points, fit).unwrap();
+        let slopes = [[0.1, 1.0], [0.25, -2.0], [0.7, 0.5]];
+        let of = |log: f64| Dense::new(&points, spline.pieces(), log.exp(), &slopes);
+        let logs = (-1000..2500).map(|i| 0.01 * f64::from(i));
+        let best = logs.min_by(|a, b| of(*a).unlikelihood.total_cmp(&of(*b).unlikelihood));
+        let dense = of(best.unwrap());
+        for (&[x, _], height) in points.iter().zip(&dense.heights) {
+            assert!((spline.at(x).y - height).abs() < 2e-3 * noise, "{noise}: {x}");
         }
+        assert_relative_eq!(spline.noise(), dense.noise, epsilon = 0.0, max_relative = 1e-3);
+        assert!((spline.noise() / noise - 1.0).abs() < 0.25, "{noise}: {}", spline.noise());
+        let (x, weights): (Vec<f64>, Vec<f64>) = slopes.iter().map(|&[x, w]| (x, w)).unzip();
+        let deviation = spline.slope_deviation(&x, &weights).unwrap();
+        assert_relative_eq!(deviation, dense.deviation, epsilon = 0.0, max_relative = 3e-3);
+    }
+}
+
+/// Heights of a circle that are known to rounding only, or exactly those of a parabola or a line.
+#[test]
+fn exact_points_are_smoothed_to_their_curve() {
+    let fit = Fit { smooth: true, outliers: None };
+    for points in [even(41, |x| x * x / 2.0), uneven(300, |x| 3.0 - x), even(200, circle(2.0))] {
+        let spline = Spline::fitted(&points, fit).unwrap();
+        for &[x, y] in &points {
+            assert!((spline.at(x).y - y).abs() < 1e-9, "{x}: {} {y}", spline.at(x).y);
+        }
+        assert!(spline.noise() < 1e-9, "{}", spline.noise());
     }
 }
 
@@ -172,53 +226,106 @@ fn many_noisy_points_give_the_contact() {
     let noise = 1e-5;
     let mut random = Noise(3);
     let points = even(20_000, |x| circle(2.0)(x) + noise * random.normal());
-    let body = Spline::fitted(&points, Fit { noise, ..Fit::default() }).unwrap();
-    let off = |&[x, y]: &[f64; 2]| (body.at(x).y - y).powi(2);
-    let rms = (points.iter().map(off).sum::<f64>() / points.len() as f64).sqrt();
-    let allowed = noise * reinsch(points.len());
-    assert_relative_eq!(rms, allowed, epsilon = 0.0, max_relative = 1.1e-4);
+    let body = Spline::fitted(&points, Fit { smooth: true, ..Fit::default() }).unwrap();
+    assert!((body.noise() / noise - 1.0).abs() < 0.02, "{}", body.noise());
 
     let form = Ellipse::circle(2.0, 0.5).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
     let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
-    assert_relative_eq!(solution.a(), 0.5, epsilon = 0.0, max_relative = 3e-4);
-    assert_relative_eq!(solution.b(), 0.5, epsilon = 0.0, max_relative = 3e-4);
+    assert_relative_eq!(solution.a(), 0.5, epsilon = 0.0, max_relative = 1e-4);
+    assert_relative_eq!(solution.b(), 0.5, epsilon = 0.0, max_relative = 1e-4);
     let pressure = solution.pressure().unwrap();
     for x in [-0.4, -0.1, 0.2, 0.35] {
         let (got, exact) = (pressure.at(x).unwrap(), form.pressure(x, 1.0));
-        assert_relative_eq!(got, exact, epsilon = 0.0, max_relative = 2e-3);
+        assert_relative_eq!(got, exact, epsilon = 0.0, max_relative = 1e-3);
     }
-    // Without smoothing the slope errors are those of the noise, ten times as large.
+    // Without smoothing the slope errors are those of the noise, a thousand times as large.
     let raw = Spline::through(&points).unwrap();
     let error = |body: &Spline<f64>| {
         let off = |i: i32| f64::from(i) / 1e3;
         let off = |i| (body.at(off(i)).dy - form.slope(off(i))).powi(2);
         ((-500..500).map(off).sum::<f64>() / 1000.0).sqrt()
     };
-    assert!(error(&raw) > 0.05 && error(&body) < 2e-4, "{:e} {:e}", error(&raw), error(&body));
+    assert!(error(&raw) > 0.05 && error(&body) < 5e-5, "{:e} {:e}", error(&raw), error(&body));
 }
 
-/// With a noise known to 10 % only, the smoothed curve does not follow it, however many the points.
+/// Circles and crowned rollers: in 19 of 20 measurements the exact contact lies within two standard
+/// deviations, or in more, since the body is smoother than the penalty expects.
 #[test]
-fn a_noise_that_is_not_quite_known_leaves_the_peak() {
-    let (radius, half_width, noise) = (10.0, 0.25, 1e-4);
-    let form = Ellipse::circle(radius, half_width).unwrap();
-    let top = form.pressure(0.0, 1.0);
-    for (seed, n) in [401, 1001, 4001, 20_001, 4001, 1001].into_iter().enumerate() {
-        let mut random = Noise(seed as u64 + 21);
-        let mut height = |x: f64| circle(radius)(x) + noise * random.normal();
-        let points: Vec<_> = even(n, |_| 0.0).iter().map(|&[x, _]| [x, height(x)]).collect();
-        for share in [0.9, 0.98, 1.0, 1.02, 1.1] {
-            let fit = Fit { noise: share * noise, ..Fit::default() };
-            let body = Spline::fitted(&points, fit).unwrap();
-            let contact = Contact::new(&Flat, &body).unwrap();
-            let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
-            assert_eq!(solution.intervals().len(), 1, "{n} points, {share} of the noise");
-            let peak = solution.peak().unwrap().pressure;
-            let off = peak / top - 1.0;
-            assert!(off.abs() < 0.03, "{n} points, {share} of the noise: off by {off:.1e}");
+fn the_exact_contact_lies_within_the_uncertainty() {
+    let crowned = |x: f64| [x * x / 2.0 + 5.0 * x.powi(6), x + 30.0 * x.powi(5)];
+    let circle = |x: f64| [circle(1.0)(x), x / ((1.0 - x) * (1.0 + x)).sqrt()];
+    type Shape = dyn Fn(f64) -> [f64; 2] + Sync;
+    let shapes: [(&str, &Shape); 2] = [("circle", &circle), ("crowned", &crowned)];
+    for (name, shape) in shapes {
+        for (half_width, noise, n) in [(0.02, 1e-5, 1000), (0.1, 1e-4, 300), (0.3, 1e-6, 1000)] {
+            let exact = Curve::new([-0.5, 0.5], |x| {
+                let [y, dy] = shape(x);
+                CurvePoint { x, y, dx: 1.0, dy }
+            });
+            let contact = Contact::new(&Flat, &exact).unwrap();
+            let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
+            let (load, peak) = (solution.load(), solution.peak().unwrap().pressure);
+            let (mut within, mut squares) = ([0; 4], [0.0; 4]);
+            for seed in 0..40 {
+                let mut random = Noise(seed);
+                let points = even(n, |x| shape(0.5 * x)[0] + noise * random.normal());
+                let points: Vec<_> = points.iter().map(|&[x, y]| [0.5 * x, y]).collect();
+                let fit = Fit { smooth: true, ..Fit::default() };
+                let body = Spline::fitted(&points, fit).unwrap();
+                let solution = Contact::new(&Flat, &body).unwrap().solve(Control::Load(load));
+                let solution = solution.unwrap();
+                let Uncertainty { a, b, half_width: half, peak_pressure } =
+                    solution.uncertainty().unwrap();
+                let off = [
+                    (solution.a() - half_width) / a,
+                    (solution.b() - half_width) / b,
+                    (solution.hull().half_width() - half_width) / half,
+                    (solution.peak().unwrap().pressure - peak) / peak_pressure,
+                ];
+                within = std::array::from_fn(|i| within[i] + i32::from(off[i].abs() <= 2.0));
+                squares = std::array::from_fn(|i| squares[i] + off[i] * off[i] / 40.0);
+            }
+            let name =
+                format!("{name}, half-width {half_width}, noise {noise}: {within:?} {squares:.2?}");
+            println!("{name}");
+            assert!(within.iter().all(|&count| count >= 36), "{name}");
+            assert!(squares.iter().all(|&square| square > 0.1 && square < 1.3), "{name}");
         }
     }
+}
+
+/// Noise moves the limits and the pressure as the derivatives say.
+#[test]
+fn uncertainty_is_known_where_the_fit_is() {
+    let mut random = Noise(5);
+    let points = even(500, |x| x * x / 2.0 + 1e-4 * random.normal());
+    let smooth = Fit { smooth: true, ..Fit::default() };
+    let body = Spline::fitted(&points, smooth).unwrap();
+    let load = Control::Load(0.02);
+    let of = |lower: &dyn ParametricProfile<f64>, upper: &dyn ParametricProfile<f64>| {
+        Contact::new(lower, upper).unwrap().solve(load).unwrap().uncertainty()
+    };
+    let alone = of(&Flat, &body).unwrap();
+    assert!(alone.a > 0.0 && alone.peak_pressure > 0.0);
+    // Exact bodies add nothing.
+    let none = of(&Flat, &Spline::through(&even(50, |x| x * x / 2.0)).unwrap()).unwrap();
+    assert_eq!(none, Uncertainty { a: 0.0, b: 0.0, half_width: 0.0, peak_pressure: 0.0 });
+    // A piece of a longer body.
+    let line = |on: [f64; 2], slope: f64, y: f64| {
+        Curve::new(on, move |x| CurvePoint { x, y: y + slope * (x - on[0]), dx: 1.0, dy: slope })
+    };
+    let end = body.at(1.0).y;
+    let parts: Vec<Box<dyn ParametricProfile<f64>>> =
+        vec![Box::new(body.clone()), Box::new(line([1.0, 2.0], 1.0, end))];
+    let joined = of(&Flat, &Piecewise::new(parts).unwrap()).unwrap();
+    assert_relative_eq!(joined.half_width, alone.half_width, max_relative = 1e-9);
+    // Placed, its deviation is not known.
+    let placed = body.placed(Placement::default().mirrored()).unwrap();
+    let error = of(&Flat, &placed).unwrap_err();
+    assert!(matches!(error, ContactError::Evaluation(EvaluationError::NoUncertainty { .. })));
+    let exact = Spline::through(&points).unwrap().placed(Placement::default().mirrored()).unwrap();
+    assert_eq!(exact.slope_deviation(&[0.0], &[1.0]), Some(0.0));
 }
 
 #[test]
@@ -241,24 +348,14 @@ fn bad_points_are_named_by_their_row() {
         let error = Spline::through(&points[..few]).map(|_| ()).unwrap_err();
         assert_eq!(error, SplineError::TooFew { points: few });
     }
-    for noise in [-1.0, f64::NAN, f64::INFINITY] {
-        let error = Spline::fitted(&points, Fit { noise, ..Fit::default() }).map(|_| ());
-        assert!(matches!(error, Err(SplineError::Noise { .. })));
-    }
     for limit in [0.0, -1.0, f64::NAN] {
         let fit = Fit { outliers: Some(limit), ..Fit::default() };
         let error = Spline::fitted(&points, fit).map(|_| ());
         assert!(matches!(error, Err(SplineError::Limit { .. })), "{limit}");
     }
-    // The root mean square distance of x² from its line, 1/3, is sqrt(4/45).
-    let fit = Fit { noise: 0.4, ..Fit::default() };
-    match Spline::fitted(&points, fit).map(|_| ()) {
-        Err(SplineError::NothingLeft { line, .. }) => assert!((line - 0.31).abs() < 0.01, "{line}"),
-        other => panic!("{other:?}"),
-    }
-    let huge: Vec<_> = points.iter().map(|&[x, y]| [x, 1e308 * y]).collect();
-    let error = Spline::fitted(&huge, Fit { noise: 1e306, outliers: None }).map(|_| ());
-    assert!(matches!(error, Err(SplineError::Smoothing { .. })), "{error:?}");
+    let huge: Vec<_> = points.iter().map(|&[x, y]| [x, 1e308 * (y - 0.5) * 3.0]).collect();
+    let error = Spline::fitted(&huge, Fit { smooth: true, outliers: None }).map(|_| ());
+    assert!(matches!(error, Err(SplineError::Overflow { row: 50, .. })), "{error:?}");
 }
 
 #[test]
@@ -295,11 +392,11 @@ fn slips_of_the_measurement_are_found_and_nothing_else() {
 fn a_spline_of_single_precision() {
     let points: Vec<[f32; 2]> =
         (-40..=40).map(|i| 0.025 * i as f32).map(|x| [x, x * x / 2.0]).collect();
-    for noise in [0.0, 1e-4] {
-        let body = Spline::fitted(&points, Fit { noise, ..Fit::default() }).unwrap();
+    for smooth in [false, true] {
+        let body = Spline::fitted(&points, Fit { smooth, ..Fit::default() }).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
         let solution = contact.solve(Control::Load(0.02)).unwrap();
-        assert!((solution.a() / 0.2 - 1.0).abs() < 0.01, "{noise} {}", solution.a());
+        assert!((solution.a() / 0.2 - 1.0).abs() < 1e-3, "{smooth} {}", solution.a());
     }
 }
 
@@ -320,17 +417,6 @@ fn a_spline_and_its_pieces_tell_their_ranges_and_slopes() {
     }
 }
 
-#[test]
-fn noise_far_below_that_of_the_points_leaves_them_as_they_are() {
-    let mut scatter = Noise(3);
-    let points = even(40, |x| x * x / 2.0 + 0.01 * scatter.normal());
-    let fit = Fit { noise: 1e-14, outliers: None };
-    let spline = Spline::fitted(&points, fit).unwrap();
-    for &[x, y] in &points {
-        assert!((spline.at(x).y - y).abs() < 1e-10, "{x}: {} {y}", spline.at(x).y);
-    }
-}
-
 /// In any unit the spline is the same, or an error says that its numbers are too large or too
 /// small.
 #[test]
@@ -340,13 +426,13 @@ fn points_of_any_size() {
         (-10..=10).map(|i| 0.1 * f64::from(i)).map(|x| [x * along, height(x) * across]).collect()
     };
     let units = [1e-320, 1e-300, 1e-200, 1e-155, 1e-100, 1.0, 1e100, 1e160, 1e300, 1e308];
-    for noise in [0.0, 1e-4] {
-        let fit = |unit| Fit { noise: noise * unit, ..Fit::default() };
-        let plain = Spline::fitted(&points([1.0; 2]), fit(1.0)).unwrap();
+    for smooth in [false, true] {
+        let fit = Fit { smooth, ..Fit::default() };
+        let plain = Spline::fitted(&points([1.0; 2]), fit).unwrap();
         let mut made = 0;
         let pairs = units.map(|along| units[1..].iter().map(move |&across| [along, across]));
         for [along, across] in pairs.into_iter().flatten() {
-            let body = match Spline::fitted(&points([along, across]), fit(across)) {
+            let body = match Spline::fitted(&points([along, across]), fit) {
                 Ok(body) => body,
                 Err(error) => {
                     let cubic = across.log10() - 3.0 * along.log10();

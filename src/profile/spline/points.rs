@@ -2,7 +2,6 @@
 
 use crate::Real;
 use crate::rounded::{apart, six, span};
-use crate::search::SearchError;
 use std::cmp::Ordering;
 use thiserror::Error;
 
@@ -77,30 +76,11 @@ pub enum SplineError<T: Real> {
         /// Distance of the point from this cubic, in standard deviations.
         deviations: T,
     },
-    /// The noise is negative, NaN or infinite.
-    #[error("the noise is {}: give the standard deviation of the heights, 0 or more", six(*noise))]
-    Noise {
-        /// The noise as given.
-        noise: T,
-    },
     /// The limit for outliers is not positive.
     #[error("Fit::outliers is {}: give a number of standard deviations, or None", six(*deviations))]
     Limit {
         /// The limit as given.
         deviations: T,
-    },
-    /// A straight line is as close to the points as the noise allows, or is expected to be nearer
-    /// to the body than any curve.
-    #[error(
-        "noise of {noise} leaves nothing of the points: a straight line, {line} off them, is as near as can be told; \
-         give less noise, or points of more of the body", noise = apart(*noise, &[*line]),
-        line = apart(*line, &[*noise])
-    )]
-    NothingLeft {
-        /// The noise as given.
-        noise: T,
-        /// Root mean square distance of the points from the line.
-        line: T,
     },
     /// The curve up to a point is beyond the range of the number type.
     #[error(
@@ -114,12 +94,6 @@ pub enum SplineError<T: Real> {
         x: T,
         /// x of the row before.
         before: T,
-    },
-    /// No smoothing was found for the noise: the squares of the numbers overflow.
-    #[error("no smoothing was found: {source}. Give the points in a unit of their own size")]
-    Smoothing {
-        /// Error of the search for the smoothing.
-        source: SearchError<T>,
     },
 }
 

@@ -1,232 +1,278 @@
-//! The smoothest curve at a given distance from the points.
+//! Smoothing of measured points, with the noise estimated from the points themselves.
 //!
-//! For a given α the natural cubic spline minimises `Σ (Y(xᵢ) - yᵢ)² + α ∫ Y''² dX`. In its heights
-//! and slopes at the knots this is a least-squares problem, in which an interval of length h
-//! between `[Y₀, Y₀']` and `[Y₁, Y₁']` has two rows,
+//! The curve is a cubic spline on even knots, `Y(x) = Σ c_j B_j(x)`, that minimises
 //!
 //! ```text
-//! ∫ Y''² dX = (Y₁' - Y₀')²/h + 12/h ((Y₀' + Y₁')/2 - (Y₁ - Y₀)/h)²
+//! D = Σ (Y(xᵢ) - yᵢ)² + α ∫ Y'''² dx
 //! ```
 //!
-//! It is solved by rotations, from left to right, in time and memory proportional to the number of
-//! points. (Reinsch's own equations, the normal ones, have the square of its condition number: the
-//! eighth power of the number of points that the smoothing reaches over, instead of the fourth.)
+//! (Eilers and Marx, *Statist. Sci.* 11, 1996, 89). A parabola is free, so that round bodies are
+//! smoothed over their whole length. In Bayesian terms the penalty is a prior of the curve, and the
+//! noise and α are those under which the points are most probable (restricted maximum likelihood:
+//! Wood, *J. R. Stat. Soc. B* 73, 2011, 3): α minimises
+//!
+//! ```text
+//! (N - 3) ln D + ln |BᵀB + αS| - K ln α,     σ² = D/(N - 3)
+//! ```
+//!
+//! for N points and K spans between knots. The knots are halved until the smoothing reaches over
+//! several spans; then they do not matter any more.
+//!
+//! The least squares are solved by rotations, from left to right, in time and memory proportional
+//! to the number of points: the normal equations have the square of the condition number.
 
-use super::SplineError;
 use crate::Real;
-use crate::search::{Bracket, Brent, LimitSearch, SearchError, StoppingCriteria};
-use nalgebra::Matrix2;
 
-/// Row of the equations: the height and the slope at two neighbouring knots, and the right side.
-type Row<T> = [T; 5];
+/// Number of spans between the first knots.
+const FIRST_SPANS: usize = 8;
 
-/// Weight of the uncertainty of a curve in its [`risk`](Fitting::risk). One is right for heights.
-/// Two halved the error of pressures, which follow the curvature, and tolerates a noise given at
-/// half its true size.
-const UNCERTAINTY_WEIGHT: f64 = 2.0;
+/// Reach of the smoothing, in spans, from which on finer knots change nothing.
+const RESOLVED: f64 = 2.5;
+
+/// Least reach of the smoothing, in spans: the curve follows the points.
+const LEAST_REACH: f64 = 0.05;
 
 /// Ratio of successive reaches tried.
 const STEP: f64 = 1.5;
 
-/// Returns height and slope at each knot of the smoothest spline that Reinsch allows for the noise,
-/// with up to `N + sqrt(2 N)` for the sum of the squared distances in units of the noise. Returns a
-/// smoother spline where it is expected to be nearer to the true curve, as where the given noise is
-/// too small.
-pub(super) fn smooth<T: Real>(points: &[[T; 2]], noise: T) -> Result<Vec<[T; 2]>, SplineError<T>> {
-    let count = T::count(points.len());
-    let [least, most] = [T::of(1e-3), T::of(3.0) * count];
-    let allowed = T::one() + (T::of(2.0) / count).sqrt();
-    let mut fitting = Fitting::new(points, noise);
-    let line_off = fitting.fit(most);
-    if !line_off.is_finite() {
-        let source = SearchError::NotFinite { x: most, value: line_off };
-        return Err(SplineError::Smoothing { source });
-    }
-    let nothing_left = SplineError::NothingLeft { noise, line: line_off.sqrt() * noise };
-    if line_off <= allowed {
-        return Err(nothing_left);
-    }
-    // Both in logarithms; the floor is a millionth of the distance sought.
-    let floor = T::of(1e-12);
-    let mut off = |reach: T| (fitting.fit(reach).max(floor) / allowed).ln();
-    let near = off(least);
-    let reach = if near < T::zero() {
-        let bracket = Bracket::new(least.ln(), most.ln()).values(near, (line_off / allowed).ln());
-        search(&mut |reach: T| off(reach.exp()), &bracket)?
-    } else {
-        least
-    };
-    let reach = fitting.least_risk(reach, most)?;
-    if reach >= most {
-        return Err(nothing_left);
-    }
-    fitting.fit(reach);
-    Ok(fitting.knots())
+/// Number of steps of the golden section; the likelihood is flat, and a thousandth is enough.
+const SECTIONS: usize = 12;
+
+/// Number of parameters of a curve without penalty, a parabola.
+const FREE: usize = 3;
+
+/// Third derivative in a span, by its four coefficients and in units of the span.
+const THIRD: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
+
+/// Row of the equations: four neighbouring coefficients, and the right side.
+type Row<T> = [T; 5];
+
+/// Equations in triangular form: each row starts one coefficient after the row before.
+#[derive(Clone, Debug)]
+struct Triangle<T> {
+    rows: Vec<Row<T>>,
+    /// Sum of the squares that are left of the right side.
+    rest: T,
 }
 
-/// Finds the zero of a function of the logarithm of the reach, and returns the reach.
-fn search<T: Real>(
-    function: &mut dyn FnMut(T) -> T,
-    bracket: &Bracket<T>,
-) -> Result<T, SplineError<T>> {
-    let brent = Brent { tolerance: StoppingCriteria { residual: 1e-4, ..StoppingCriteria::FULL } };
-    let found =
-        brent.find(function, bracket).map_err(|source| SplineError::Smoothing { source })?;
-    Ok(found.x.exp())
+impl<T: Real> Triangle<T> {
+    fn new(count: usize) -> Self {
+        Self { rows: vec![[T::zero(); 5]; count], rest: T::zero() }
+    }
+
+    /// Adds a row that starts at a coefficient, by plane rotations. Rows come from left to right.
+    fn insert(&mut self, start: usize, mut row: Row<T>) {
+        for kept in self.rows.iter_mut().skip(start).take(4) {
+            if !row[0].is_zero() {
+                let length = kept[0].hypot(row[0]);
+                let (cos, sin) = (kept[0] / length, row[0] / length);
+                for (kept, new) in kept.iter_mut().zip(&mut row) {
+                    (*kept, *new) = (cos * *kept + sin * *new, cos * *new - sin * *kept);
+                }
+            }
+            row = [row[1], row[2], row[3], T::zero(), row[4]];
+        }
+        self.rest += row[4] * row[4];
+    }
+
+    /// Returns the coefficients.
+    fn solve(&self) -> Vec<T> {
+        let count = self.rows.len();
+        let mut all = vec![T::zero(); count + FREE];
+        for (i, row) in self.rows.iter().enumerate().rev() {
+            let known = row[4] - row[1] * all[i + 1] - row[2] * all[i + 2] - row[3] * all[i + 3];
+            all[i] = known / row[0];
+        }
+        all.truncate(count);
+        all
+    }
+
+    /// Returns the variance of a sum of coefficients, each times a weight, for points with a
+    /// variance of 1: `|u|²` with `Rᵀ u = weights`.
+    fn variance(&self, mut weights: Vec<T>) -> T {
+        let mut sum = T::zero();
+        for (i, row) in self.rows.iter().enumerate() {
+            let u = weights[i] / row[0];
+            for (weight, &entry) in weights[i + 1..].iter_mut().zip(&row[1..4]) {
+                *weight -= entry * u;
+            }
+            sum += u * u;
+        }
+        sum
+    }
 }
 
-/// Points, and the curve that was fitted to them last.
+/// Equations for one set of knots, without the penalty.
 struct Fitting<T> {
-    /// Points with the mean spacing as the unit of x, less the line from the first to the last: the
-    /// line is not penalised, and there is less to round.
-    points: Vec<[T; 2]>,
-    noise: T,
-    spacing: T,
-    first: T,
-    chord: T,
-    triangle: Vec<[Row<T>; 2]>,
-    curve: Vec<[T; 2]>,
+    points: usize,
+    spans: usize,
+    data: Triangle<T>,
 }
 
 impl<T: Real> Fitting<T> {
-    fn new(points: &[[T; 2]], noise: T) -> Self {
-        let [first, last] = [points[0], points[points.len() - 1]];
-        let spacing = (last[0] - first[0]) / T::count(points.len() - 1);
-        let chord = (last[1] - first[1]) / T::count(points.len() - 1);
-        let rest = |&[x, y]: &[T; 2]| {
-            let x = (x - first[0]) / spacing;
-            [x, y - (first[1] + chord * x)]
-        };
-        Self {
-            points: points.iter().map(rest).collect(),
-            noise,
-            spacing,
-            first: first[1],
-            chord,
-            triangle: Vec::with_capacity(points.len()),
-            curve: vec![[T::zero(); 2]; points.len()],
+    /// Takes points by their place, from 0 to 1, and their height.
+    fn new(points: &[[T; 2]], spans: usize) -> Self {
+        let mut data = Triangle::new(spans + FREE);
+        for &[share, y] in points {
+            let (start, t) = split(share, spans);
+            let [a, b, c, d] = values(t);
+            data.insert(start, [a, b, c, d, y]);
         }
+        Self { points: points.len(), spans, data }
     }
 
-    /// Fits the curve that smooths over `reach` points, `α = reach⁴ spacing³`, and returns the mean
-    /// square of its distances from the points, in units of the noise, so that no square of a small
-    /// number vanishes.
-    fn fit(&mut self, reach: T) -> T {
-        penalised(&self.points, reach * reach, &mut self.triangle, &mut self.curve);
-        let pairs = self.points.iter().zip(&self.curve);
-        let square =
-            |(point, knot): (&[T; 2], &[T; 2])| ((point[1] - knot[0]) / self.noise).powi(2);
-        pairs.fold(T::zero(), |sum, pair| sum + square(pair)) / T::count(self.points.len())
+    /// Returns the weight α of the penalty that smooths over `reach` spans.
+    fn alpha(&self, reach: T) -> T {
+        reach.powi(6) * T::count(self.points) / T::count(self.spans)
     }
 
-    /// Returns the expected mean square error of the heights, up to a constant, in units of the
-    /// noise (Mallows, *Technometrics* 15, 1973, 661): the mean square of the distances, which
-    /// grows with the reach, plus the uncertainty, which falls with it.
-    fn risk(&mut self, reach: T) -> T {
-        let distance = self.fit(reach);
-        let doubt = freedom(&self.triangle) / T::count(self.points.len());
-        distance + T::of(2.0 * UNCERTAINTY_WEIGHT) * doubt
-    }
-
-    /// Finds the reach of the least risk between two reaches.
-    fn least_risk(&mut self, from: T, most: T) -> Result<T, SplineError<T>> {
-        let step = T::of(STEP);
-        let (mut best, mut least, mut reach) = (from, self.risk(from), from);
-        while reach < most {
-            reach = (reach * step).min(most);
-            let risk = self.risk(reach);
-            if risk < least {
-                (best, least) = (reach, risk);
+    fn penalised(&self, alpha: T) -> Triangle<T> {
+        let [a, b, c, d] = THIRD.map(|third| alpha.sqrt() * T::of(third));
+        let mut all = Triangle { rest: self.data.rest, ..Triangle::new(self.spans + FREE) };
+        for (i, &row) in self.data.rows.iter().enumerate() {
+            all.insert(i, row);
+            if i < self.spans {
+                all.insert(i, [a, b, c, d, T::zero()]);
             }
         }
-        if best <= from || best >= most {
-            return Ok(best);
+        all
+    }
+
+    /// Returns -2 times the logarithm of the restricted likelihood, up to a constant.
+    fn unlikelihood(&self, reach: T) -> T {
+        let alpha = self.alpha(reach);
+        let Triangle { rows, rest } = self.penalised(alpha);
+        let roots = rows.iter().fold(T::zero(), |sum, row| sum + row[0].abs().ln());
+        // Heights are 1 at most: less than this is rounding.
+        let rest = rest.max(T::epsilon().powi(2));
+        T::count(self.points - FREE) * rest.ln() + T::of(2.0) * roots
+            - T::count(self.spans) * alpha.ln()
+    }
+
+    /// Finds the most likely reach, on a grid and then by golden section in its logarithm.
+    fn reach(&self) -> T {
+        let (step, most) = (T::of(STEP), T::count(self.spans));
+        let mut reach = T::of(LEAST_REACH);
+        let (mut best, mut least) = (reach, self.unlikelihood(reach));
+        while reach < most {
+            reach = (reach * step).min(most);
+            let found = self.unlikelihood(reach);
+            if found < least {
+                (best, least) = (reach, found);
+            }
         }
-        // The risk stops falling between half a step to the left and half a step to the right.
-        let half = step.ln() * T::of(0.5);
-        let mut rise = |middle: T| {
-            let [before, after] =
-                [middle - half, middle + half].map(|reach| self.risk(reach.exp()));
-            (after - before) / least
+        let share = T::of(0.5) * (T::of(5.0).sqrt() - T::one());
+        let [mut from, mut to] = [best / step, (best * step).min(most)].map(|reach| reach.ln());
+        let at = |place: T| self.unlikelihood(place.exp());
+        let mut places = [to - share * (to - from), from + share * (to - from)];
+        let mut found = places.map(at);
+        for _ in 0..SECTIONS {
+            if found[0] < found[1] {
+                to = places[1];
+                places = [to - share * (to - from), places[0]];
+                found = [at(places[0]), found[0]];
+            } else {
+                from = places[0];
+                places = [places[1], from + share * (to - from)];
+                found = [found[1], at(places[1])];
+            }
+        }
+        (T::of(0.5) * (from + to)).exp()
+    }
+}
+
+/// Curve fitted to points, and the uncertainty that their noise leaves in it.
+#[derive(Clone, Debug)]
+pub(super) struct Smooth<T> {
+    ends: [T; 2],
+    spans: usize,
+    triangle: Triangle<T>,
+    /// Standard deviation of the heights.
+    pub noise: T,
+    /// Height and slope at each knot.
+    pub knots: Vec<[T; 2]>,
+}
+
+impl<T: Real> Smooth<T> {
+    /// Fits the curve to points.
+    pub fn new(points: &[[T; 2]]) -> Self {
+        let [[from, start], [to, end]] = [points[0], points[points.len() - 1]];
+        let length = to - from;
+        // Heights are taken from the line between the ends, which is not penalised.
+        let mut rest: Vec<[T; 2]> = points
+            .iter()
+            .map(|&[x, y]| ((x - from) / length, y))
+            .map(|(share, y)| [share, (y - start) - (end - start) * share])
+            .collect();
+        let size = rest.iter().fold(T::zero(), |size, point| size.max(point[1].abs()));
+        let size = if size.is_zero() { T::one() } else { size };
+        rest.iter_mut().for_each(|point| point[1] /= size);
+        let mut fitting = Fitting::new(&rest, FIRST_SPANS.min(points.len() - 1));
+        let mut reach = fitting.reach();
+        while reach < T::of(RESOLVED) && fitting.spans < points.len() {
+            fitting = Fitting::new(&rest, 2 * fitting.spans);
+            reach = fitting.reach();
+        }
+        let (spans, triangle) = (fitting.spans, fitting.penalised(fitting.alpha(reach)));
+        let span = length / T::count(spans);
+        let noise = size * (triangle.rest / T::count(points.len() - FREE)).sqrt();
+        let knot = |(i, c): (usize, &[T])| {
+            let height = size * ((c[0] + T::of(4.0) * c[1] + c[2]) / T::of(6.0));
+            let line = start + (end - start) * (T::count(i) / T::count(spans));
+            let slope = size * (T::of(0.5) * (c[2] - c[0]));
+            [height + line, (slope + (end - start) / T::count(spans)) / span]
         };
-        let ends = [best.ln() - half, best.ln() + half];
-        let [falls, rises] = ends.map(&mut rise);
-        if !(falls < T::zero() && rises > T::zero()) {
-            return Ok(best);
-        }
-        search(&mut rise, &Bracket::new(ends[0], ends[1]).values(falls, rises))
+        let knots = triangle.solve().windows(3).enumerate().map(knot).collect();
+        Self { ends: [from, to], spans, triangle, noise, knots }
     }
 
-    /// Returns height and slope at each knot, with the line added.
-    fn knots(self) -> Vec<[T; 2]> {
-        let Self { first, chord, spacing, .. } = self;
-        let knot = |(&[x, _], &[y, slope]): (&[T; 2], &[T; 2])| {
-            [y + (first + chord * x), (slope + chord) / spacing]
-        };
-        self.points.iter().zip(&self.curve).map(knot).collect()
+    /// Returns x of a knot.
+    pub fn place(&self, knot: usize) -> T {
+        let [from, to] = self.ends;
+        if knot == self.spans {
+            to
+        } else {
+            from + (to - from) * (T::count(knot) / T::count(self.spans))
+        }
+    }
+
+    /// Returns the standard deviation of `Σ wᵢ dY/dX(xᵢ)`.
+    pub fn slope_deviation(&self, x: &[T], weights: &[T]) -> T {
+        let [from, to] = self.ends;
+        let mut sums = vec![T::zero(); self.spans + FREE];
+        for (&x, &weight) in x.iter().zip(weights) {
+            let (start, t) = split((x - from) / (to - from), self.spans);
+            for (sum, slope) in sums[start..].iter_mut().zip(slopes(t)) {
+                *sum += weight * slope;
+            }
+        }
+        self.triangle.variance(sums).sqrt() * self.noise * (T::count(self.spans) / (to - from))
     }
 }
 
-/// Returns the trace of the matrix that makes the heights of the curve from those of the points:
-/// the extent to which the curve follows the points. Computed from right to left, by the inverse of
-/// the triangle.
-fn freedom<T: Real>(triangle: &[[Row<T>; 2]]) -> T {
-    // Covariance of height and slope at a knot, for points with a variance of 1.
-    let mut covariance = Matrix2::zeros();
-    triangle.iter().rev().fold(T::zero(), |sum, [upper, lower]| {
-        let next = Matrix2::new(upper[2], upper[3], lower[2], lower[3]);
-        let above = -upper[1] / (upper[0] * lower[1]);
-        let inverse = Matrix2::new(upper[0].recip(), above, T::zero(), lower[1].recip());
-        covariance = inverse
-            * (Matrix2::identity() + next * covariance * next.transpose())
-            * inverse.transpose();
-        sum + covariance.m11
-    })
+/// Returns the span in which a place from 0 to 1 lies, and the place in it, from 0 to 1.
+fn split<T: Real>(share: T, spans: usize) -> (usize, T) {
+    let place = share * T::count(spans);
+    let (mut start, mut step) = (0, spans.next_power_of_two());
+    while step > 0 {
+        if start + step < spans && T::count(start + step) <= place {
+            start += step;
+        }
+        step /= 2;
+    }
+    (start, place - T::count(start))
 }
 
-/// Finds height and slope at each knot, given the square root of α.
-fn penalised<T: Real>(
-    points: &[[T; 2]],
-    stiffness: T,
-    triangle: &mut Vec<[Row<T>; 2]>,
-    knots: &mut [[T; 2]],
-) {
-    let (zero, one, half) = (T::zero(), T::one(), T::of(0.5));
-    triangle.clear();
-    // Rows 0 and 1 start with the left knot of an interval, 2 and 3 with the right.
-    let mut rows = [[zero; 5]; 4];
-    for pair in points.windows(2) {
-        let h = pair[1][0] - pair[0][0];
-        let [level, bent] = [stiffness / h.sqrt(), stiffness * (T::of(12.0) / h).sqrt()];
-        insert(&mut rows, [one, zero, zero, zero, pair[0][1]]);
-        insert(&mut rows, [bent / h, half * bent, -bent / h, half * bent, zero]);
-        insert(&mut rows, [zero, -level, zero, level, zero]);
-        triangle.push([rows[0], rows[1]]);
-        let next = |row: Row<T>| [row[2], row[3], zero, zero, row[4]];
-        rows = [next(rows[2]), next(rows[3]), [zero; 5], [zero; 5]];
-    }
-    let n = points.len();
-    insert(&mut rows, [one, zero, zero, zero, points[n - 1][1]]);
-    triangle.push([rows[0], rows[1]]);
-    let mut after = [zero; 2];
-    for (knot, [upper, lower]) in knots.iter_mut().zip(triangle.iter()).rev() {
-        let known = |row: &Row<T>| row[4] - row[2] * after[0] - row[3] * after[1];
-        let slope = known(lower) / lower[1];
-        *knot = [(known(upper) - upper[1] * slope) / upper[0], slope];
-        after = *knot;
-    }
+/// Returns the four B-splines of a span.
+fn values<T: Real>(t: T) -> [T; 4] {
+    let s = T::one() - t;
+    let inner = |t: T| T::of(4.0) + t * t * (T::of(3.0) * t - T::of(6.0));
+    [s * s * s, inner(t), inner(s), t * t * t].map(|value| value / T::of(6.0))
 }
 
-/// Adds a row to a triangle of rows, by plane rotations.
-fn insert<T: Real>(rows: &mut [Row<T>; 4], mut row: Row<T>) {
-    for (i, kept) in rows.iter_mut().enumerate() {
-        if row[i].is_zero() {
-            continue;
-        }
-        let length = kept[i].hypot(row[i]);
-        let (cos, sin) = (kept[i] / length, row[i] / length);
-        for (kept, new) in kept.iter_mut().zip(&mut row).skip(i) {
-            (*kept, *new) = (cos * *kept + sin * *new, cos * *new - sin * *kept);
-        }
-    }
+/// Returns the derivatives of the four B-splines of a span.
+fn slopes<T: Real>(t: T) -> [T; 4] {
+    let (half, s) = (T::of(0.5), T::one() - t);
+    let inner = |t: T| t * (T::of(1.5) * t - T::of(2.0));
+    [-half * s * s, inner(t), -inner(s), half * t * t]
 }

@@ -20,7 +20,7 @@ pub(in crate::profile) enum Fault<T: Real> {
 
 impl<T: Real> Spline<T> {
     /// Builds a spline from cubics that meet as closely as when they were made.
-    pub(in crate::profile) fn of_cubics(cubics: Vec<Cubic<T>>) -> Result<Self, Fault<T>> {
+    pub(in crate::profile) fn of_cubics(cubics: Vec<Cubic<T>>, noise: T) -> Result<Self, Fault<T>> {
         let start = |cubic: &Cubic<T>| (cubic.x[0], [cubic.coefficients[0], cubic.coefficients[1]]);
         let mut knots: Vec<_> = cubics.iter().map(start).collect();
         knots.extend(
@@ -32,7 +32,7 @@ impl<T: Real> Spline<T> {
         if let Some(i) = cubics.windows(2).position(|pair| pair[0].x[1] != pair[1].x[0]) {
             return Err(Fault::Break { cubic: i + 1, x: cubics[i].x[1] });
         }
-        let spline = Self { cubics };
+        let spline = Self { cubics, noise, smooth: None };
         match spline.first_gap(&knots) {
             None => Ok(spline),
             Some((i, is_finite)) => {
