@@ -1,5 +1,5 @@
 //! Integrals over a pressure by tanh-sinh quadrature between the points where the pressure is not
-//! smooth; shares no code with the crate.
+//! smooth, and over a slope by the midpoint rule; shares no code with the crate.
 
 use linecontact::Interval;
 use std::f64::consts::PI;
@@ -58,4 +58,15 @@ pub fn principal(
     let at_x = strength(x);
     // PV∫ ds/((x - s) w(s)) is zero.
     integral(on, &[breakpoints, &[x]].concat(), |s| (strength(s) - at_x) / (x - s))
+}
+
+/// Returns `(1/π) ∫ g dθ` and `(1/π) ∫ g cos θ dθ` of a slope without breakpoints, by the midpoint
+/// rule in θ: to rounding, if the slope is smooth on the scale of the contact.
+pub fn edge_integrals(on: Interval<f64>, slope: impl Fn(f64) -> f64) -> [f64; 2] {
+    const N: usize = 4000;
+    (0..N).fold([0.0; 2], |[mean, first], i| {
+        let cos = (PI * (i as f64 + 0.5) / N as f64).cos();
+        let g = slope(on.centre() + on.half_width() * cos) / N as f64;
+        [mean + g, first + g * cos]
+    })
 }

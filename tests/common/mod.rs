@@ -10,7 +10,7 @@ use linecontact::search::{
     Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, StoppingCriteria,
 };
 use linecontact::{
-    Contact, Curve, CurvePoint, Flat, Interval, ParametricProfile, Piecewise, Real, Solution,
+    Contact, Curve, CurvePoint, Flat, Interval, ParametricProfile, Piece, Piecewise, Real, Solution,
 };
 use serde_json::Value;
 use std::f64::consts::PI;
@@ -122,6 +122,17 @@ pub fn parabola(reach: f64) -> Profile {
     graph(-reach, reach, |x| [x * x / 2.0, x])
 }
 
+/// Returns x⁴ - 2x².
+pub fn quartic(from: f64, to: f64) -> Profile {
+    graph(from, to, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)])
+}
+
+/// Returns a point of x = k + k³/5 on the parabola x²/2, so that x has to be inverted.
+pub fn by_cubic(k: f64) -> CurvePoint<f64> {
+    let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
+    CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
+}
+
 type Found = Result<Root<f64>, SearchError<f64>>;
 
 /// A user's search: may evaluate the function, and returns whatever it likes.
@@ -182,7 +193,8 @@ fn cubic_parameter(eps: f64) -> Profile {
     }))
 }
 
-fn gear(radius: f64, sign: f64) -> Profile {
+/// Returns the flank of a gear's tooth, by the angle rolled off beyond the pitch point.
+pub fn gear(radius: f64, sign: f64) -> Profile {
     let t0 = 93.0 / 256.0;
     Box::new(Curve::new([-0.36, 1.0], move |k: f64| {
         let (r, t, (s, c)) = (sign * radius, t0 + k, k.sin_cos());
@@ -284,6 +296,25 @@ pub fn order(errors: &[(usize, f64)]) -> f64 {
     -covariance / variance
 }
 
+/// Returns central differences of solves, with Richardson extrapolation.
+pub fn difference(of: impl Fn(f64) -> f64, at: f64) -> f64 {
+    let central = |h: f64| (of(at * (1.0 + h)) - of(at * (1.0 - h))) / (2.0 * at * h);
+    (4.0 * central(2e-4) - central(4e-4)) / 3.0
+}
+
+/// Returns the larger error of two limits, as a share of the half-width due.
+pub fn limits_off(found: Interval<f64>, due: Interval<f64>) -> f64 {
+    (found.left - due.left).abs().nan_max((found.right - due.right).abs()) / due.half_width()
+}
+
+/// Returns the smooth pieces of a body.
+pub fn pieces<T: Real>(body: &dyn ParametricProfile<T>) -> Vec<Piece<'_, T>> {
+    match body.pieces() {
+        0 => vec![Piece::new(body).expect("a body that can be solved")],
+        count => (0..count).filter_map(|i| body.piece(i)).collect(),
+    }
+}
+
 /// Compares two numbers, relative to the larger one.
 #[track_caller]
 pub fn assert_close(got: f64, want: f64, max_relative: f64) {
@@ -329,7 +360,7 @@ impl<P: ParametricProfile<f64>> ParametricProfile<f64> for Counting<'_, P> {
     fn pieces(&self) -> usize {
         self.0.pieces()
     }
-    fn piece(&self, index: usize) -> Option<linecontact::profile::Piece<'_, f64>> {
+    fn piece(&self, index: usize) -> Option<Piece<'_, f64>> {
         self.0.piece(index)
     }
 }
@@ -341,5 +372,14 @@ impl Shares {
     pub fn between(&mut self, from: f64, to: f64) -> f64 {
         self.0 = self.0.wrapping_mul(0x5851_F42D_4C95_7F2D).wrapping_add(0x1405_7B7E_F767_814F);
         from + (to - from) * ((self.0 >> 11) as f64 / (1u64 << 53) as f64)
+    }
+
+    pub fn power_of_ten(&mut self, from: f64, to: f64) -> f64 {
+        10f64.powf(self.between(from, to))
+    }
+
+    /// Returns a number with a distribution close to the normal one.
+    pub fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.between(0.0, 1.0)).sum::<f64>() - 6.0
     }
 }

@@ -1,6 +1,7 @@
 //! Derivatives of a solution by its parameters: the solver on dual numbers.
 #![allow(missing_docs)]
 
+use crate::common::NanSafe;
 use crate::forms;
 use crate::formulas;
 
@@ -19,11 +20,11 @@ use std::f64::consts::PI;
 
 /// Returns a number with a derivative of about its own size, by a factor that varies with the
 /// value.
-fn seeded(value: f64) -> Dual64 {
+pub fn seeded(value: f64) -> Dual64 {
     Dual64::new(value, value * (31.0 * value).sin())
 }
 
-fn plain(value: f64) -> Dual64 {
+pub fn plain(value: f64) -> Dual64 {
     Dual64::from_re(value)
 }
 
@@ -62,18 +63,13 @@ fn bent(form: &dyn ClosedForm<Dual64>, reach: Dual64) -> Piecewise<Dual64, Bent<
     Piecewise::new(ends.windows(2).map(piece).collect()).unwrap()
 }
 
-/// Returns the larger of two errors, NaN if either is NaN.
-fn worse(max: f64, error: f64) -> f64 {
-    if max.is_nan() || error.is_nan() { f64::NAN } else { max.max(error.abs()) }
-}
-
 /// Returns the largest errors of value and derivative of the limits, as shares of the half-width.
 fn limits_off(solution: &Solution<'_, Dual64>, form: &dyn ClosedForm<Dual64>) -> [f64; 2] {
     let (got, want) = (solution.hull(), form.limits());
     let l = want.half_width().re;
-    [got.right - want.right, got.left - want.left]
-        .iter()
-        .fold([0.0; 2], |max, off| [worse(max[0], off.re / l), worse(max[1], off.eps / l)])
+    [got.right - want.right, got.left - want.left].iter().fold([0.0f64; 2], |max, off| {
+        [max[0].nan_max((off.re / l).abs()), max[1].nan_max((off.eps / l).abs())]
+    })
 }
 
 /// Returns the largest errors of value and derivative of the pressure, relative to the local
@@ -86,7 +82,7 @@ fn pressure_off(
 ) -> [f64; 2] {
     let (want, pressure) = (form.limits(), solution.pressure().unwrap());
     let mean = form.load(kappa).re.abs() / want.half_width().re;
-    let mut largest = [0.0; 2];
+    let mut largest = [0.0f64; 2];
     for i in 1..40 {
         let x = plain(want.at_angle(plain(PI * (f64::from(i) + 0.1) / 40.0)).re);
         let exact = form.pressure(x, kappa);
@@ -94,7 +90,7 @@ fn pressure_off(
         let sine = (want.chebyshev_weight(x) / want.half_width()).re;
         let size = mean.max(0.1 * exact.re.abs());
         let off = [got.re - exact.re, (got.eps - exact.eps) * sine];
-        largest = [0, 1].map(|i| worse(largest[i], off[i] / size));
+        largest = [0, 1].map(|i| largest[i].nan_max(off[i].abs() / size));
     }
     largest
 }

@@ -1,6 +1,7 @@
 //! Derivatives of a solution with several contacts by its parameters.
 #![allow(missing_docs)]
 
+use crate::derivatives::{plain, seeded};
 use crate::forms::KAPPA;
 
 use linecontact::autodiff::num_dual::{Dual64, HyperDual64};
@@ -10,16 +11,6 @@ use linecontact::{
     Solver,
 };
 use std::f64::consts::PI;
-
-fn plain(value: f64) -> Dual64 {
-    Dual64::from_re(value)
-}
-
-/// Returns a number with a derivative of about its own size, by a factor that varies with the
-/// value.
-fn seeded(value: f64) -> Dual64 {
-    Dual64::new(value, value * (31.0 * value).sin())
-}
 
 /// Returns `x⁴ - 2x²` with coefficients as parameters.
 fn quartic<T: Real>(reach: f64, [fourth, second]: [T; 2]) -> impl ParametricProfile<T> {

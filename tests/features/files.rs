@@ -2,13 +2,14 @@
 //! error.
 #![allow(missing_docs)]
 
+use crate::common::{on_flat, quartic};
 use linecontact::profile::{
     Crowning, Ellipse, Fit, Involute, Line, Parabola, Placed, Placement, Spline, rounded_punch,
     wedge,
 };
 use linecontact::search::{Bisection, Brent, Newton, Secant, StoppingCriteria};
 use linecontact::{
-    Contact, Control, Convexity, Curve, CurvePoint, Edge, EdgePressure, Estimate, Exponents, Flat,
+    Contact, Control, Convexity, CurvePoint, Edge, EdgePressure, Estimate, Exponents, Flat,
     Interval, Material, Midpoint, Panels, ParametricProfile, Piecewise, PlaneState, Reference,
     References, Report, Shear, Solution, SpringTable, Summary,
 };
@@ -213,12 +214,7 @@ fn settings_are_kept_and_have_their_defaults() {
 }
 
 fn bumps() -> Solution<'static, f64> {
-    let body = Curve::new([-2.0, 2.0], |k: f64| {
-        let k2 = k * k;
-        CurvePoint { x: k, y: k2 * (k2 - 2.0), dx: 1.0, dy: 4.0 * k * (k2 - 1.0) }
-    });
-    let contact = Contact::owned(std::sync::Arc::new(Flat), std::sync::Arc::new(body)).unwrap();
-    contact.solve(Control::Load(0.5)).unwrap()
+    on_flat(quartic(-2.0, 2.0)).solve(Control::Load(0.5)).unwrap()
 }
 
 #[test]

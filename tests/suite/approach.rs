@@ -2,7 +2,7 @@
 //! field, independent sums over the pressure, and differences of solves.
 #![allow(missing_docs)]
 
-use crate::common::{Profile, graph, worst};
+use crate::common::{Profile, graph, quartic, worst};
 use crate::integrals::{integral, strength};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::reference::{ClosedForm, Hertz};
@@ -27,11 +27,6 @@ fn share(material: Material<f64>) -> f64 {
 
 fn deep(x: f64, depth: f64) -> References<f64> {
     References { x, lower: Reference::Depth(depth), upper: Reference::Depth(depth) }
-}
-
-/// Returns x⁴ - 2x².
-fn quartic() -> Profile {
-    graph(-2.5, 2.5, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)])
 }
 
 /// Returns the displacement towards a depth by its definition, from values of the pressure alone.
@@ -124,7 +119,7 @@ fn the_reference_decides_between_the_values_of_verification_case_191() {
 #[test]
 fn it_is_the_integral_of_the_pressure_at_any_place() {
     let lopsided = graph(-1.5, 1.5, |x| [x * x / 2.0 + x.powi(3) / 6.0, x + x * x / 2.0]);
-    let quartic = quartic();
+    let quartic = quartic(-2.5, 2.5);
     let edges = [Edge::Free, Edge::Free];
     let punch = [Edge::Fixed(-0.3), Edge::Free];
     // The sum cannot approach the infinite pressure at a corner closer than the rounding of s; the
@@ -169,7 +164,7 @@ fn it_is_the_integral_of_the_pressure_at_any_place() {
 #[test]
 fn stiffness_is_the_derivative_of_load_by_approach() {
     let circle = Ellipse::circle(1.0, [-1.5, 1.5]).unwrap();
-    let (circle, quartic): (Profile, Profile) = (Box::new(circle), quartic());
+    let (circle, quartic): (Profile, Profile) = (Box::new(circle), quartic(-2.5, 2.5));
     let wedge = graph(-1.0, 1.0, |x| [x.abs() + x * x / 2.0, x.signum() + x]);
     let free = [Edge::Free; 2];
     let flat: [Edge<f64>; 2] = [Edge::Fixed(-0.5), Edge::Fixed(0.6)];
@@ -266,7 +261,7 @@ fn highest(body: &dyn linecontact::ParametricProfile<f64>, solution: &Solution<f
 #[test]
 fn the_load_of_an_approach_is_that_which_has_it() {
     let circle = Ellipse::circle(1.0, [-1.5, 1.5]).unwrap();
-    let (circle, quartic): (Profile, Profile) = (Box::new(circle), quartic());
+    let (circle, quartic): (Profile, Profile) = (Box::new(circle), quartic(-2.5, 2.5));
     let free = [Edge::Free; 2];
     let corner = [Edge::Fixed(-0.3), Edge::Free];
     let until = [Edge::FreeUntil(-0.1), Edge::FreeUntil(0.2)];
@@ -500,7 +495,8 @@ fn bodies_come_nearer_with_every_load_wherever_it_is_measured() {
     let parabola: Profile = Box::new(Parabola::new(1.0, [-3.0, 3.0]).unwrap());
     let incompressible = Material::elastic(1.0, 0.5);
     let mut lifted = 0;
-    for (body, load) in [(&parabola, 0.01), (&quartic(), 1.0), (&quartic(), 0.01)] {
+    for (body, load) in [(&parabola, 0.01), (&quartic(-2.5, 2.5), 1.0), (&quartic(-2.5, 2.5), 0.01)]
+    {
         for material in [STEEL, incompressible] {
             let contact = Contact::new(&Flat, &**body).unwrap().materials(
                 Material::Rigid,

@@ -13,7 +13,7 @@ mod profiles;
 mod scene;
 mod searches;
 
-use common::{Profile, power, strategies};
+use common::{Profile, by_cubic, power, strategies};
 use linecontact::profile::{Placed, Placement};
 use linecontact::quadrature::{Integrator, LoadCase, Moments, Quadrature};
 use linecontact::search::{Bracket, Brent, Root, SearchError, StoppingCriteria};
@@ -45,14 +45,8 @@ fn curve(domain: [f64; 2], at: impl Fn(f64) -> CurvePoint<f64> + Send + Sync + '
     }))
 }
 
-/// Returns a point of a curve that has to be inverted: x = k + k³/5, y = x²/2.
-fn point(k: f64) -> CurvePoint<f64> {
-    let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
-    CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
-}
-
 fn body() -> Profile {
-    curve([-1.0, 1.0], point)
+    curve([-1.0, 1.0], by_cubic)
 }
 
 /// Any error of the crate.

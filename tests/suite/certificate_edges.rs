@@ -2,10 +2,9 @@
 #![allow(missing_docs)]
 
 use crate::common::{NanSafe, Shares, graph, parabola, worst};
+use crate::forms::KAPPA;
 use linecontact::{Contact, ContactError, Control, Edge, Flat, Solution, SolveError};
 use std::f64::consts::PI;
-
-const KAPPA: f64 = 1.7;
 
 #[test]
 fn the_free_limit_beside_a_corner_moves_as_in_closed_form() {

@@ -2,12 +2,11 @@
 //! refused at the right place with the right value.
 #![allow(missing_docs)]
 
-use crate::common::NanSafe;
-use crate::common::{Profile, graph, intervals, join, on_flat, several};
+use crate::common::{Profile, graph, on_flat, quartic};
+use crate::several_quantities::{Scene, all_scenes};
+use crate::several_solved::forms;
 
-use linecontact::reference::{
-    ClosedForm, Hertz, PolynomialMap, Quartic, RoundedPunch, UnequalRadii, Wedge, body,
-};
+use linecontact::reference::{Quartic, body};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Extremum, Flat, Piecewise, SolveError,
 };
@@ -18,23 +17,8 @@ const KAPPA: f64 = PI / 2.0;
 
 #[test]
 fn closed_forms_with_several_contacts_pass() {
-    let mut forms: Vec<(String, Box<dyn ClosedForm<f64>>, f64)> = Vec::new();
-    for count in [2, 3, 5] {
-        let mut add = |name: &str, form: Box<dyn ClosedForm<f64>>| {
-            forms.push((format!("{name}, {count}"), form, (2.0 / f64::from(count as u32)).cosh()));
-        };
-        for share in [1.1, 3.0, 40.0] {
-            let hertz = Hertz::new(0.7, 0.3).unwrap();
-            let form = PolynomialMap::new(hertz, count, 0.3 * share, 1.0).unwrap();
-            add(&format!("Hertz {share}"), Box::new(form));
-        }
-        let wedge = Wedge::unequal(0.2, 0.3, 0.4).unwrap();
-        add("wedge", Box::new(PolynomialMap::new(wedge, count, 0.7, 1.0).unwrap()));
-        let radii = UnequalRadii::new(1.0, 0.1, 0.4).unwrap();
-        add("radii", Box::new(PolynomialMap::new(radii, count, 1.0, 1.0).unwrap()));
-        let punch = RoundedPunch::new(0.2, 0.7, 0.3).unwrap();
-        add("rounded punch", Box::new(PolynomialMap::new(punch, count, 0.5, 1.0).unwrap()));
-    }
+    let mut forms = forms::<f64>();
+    forms.retain(|(name, ..)| [", 2", ", 3", ", 5"].iter().any(|count| name.ends_with(count)));
     for load in [0.01, 1.0, 3.0] {
         let form = Quartic::under_load(1.0, 1.0, load, KAPPA).unwrap();
         forms.push((format!("quartic, {load}"), Box::new(form), 2.5));
@@ -81,116 +65,12 @@ fn closed_forms_with_several_contacts_pass() {
 
 #[test]
 fn contacts_of_the_files_pass() {
-    let waves = |curvature: f64, waves: &'static [[f64; 3]]| {
-        move |x: f64| {
-            let mut sum = [curvature * x * x / 2.0, curvature * x];
-            for [a, k, phase] in waves {
-                let (sin, cos) = (k * x + phase).sin_cos();
-                sum = [sum[0] + a * cos, sum[1] - a * k * sin];
-            }
-            sum
-        }
-    };
-    let polynomial = |coefficients: &'static [f64]| {
-        move |x: f64| coefficients.iter().fold([0.0; 2], |[y, dy], a| [y * x + a, dy * x + y])
-    };
-    let quartic = || graph(-2.5, 2.5, polynomial(&[1.0, 0.0, -2.0, 0.0, 0.0]));
-    let chebyshev = polynomial(&[0.2, 0.0, -0.2, 0.0, 0.025]);
-    let zeros = [
-        -1.3,
-        -0.9238795325112867,
-        -0.3826834323650898,
-        0.3826834323650898,
-        0.9238795325112867,
-        1.3,
-    ];
-    let pieces = zeros.windows(2).enumerate().map(|(i, pair)| {
-        let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
-        graph(pair[0], pair[1], move |x| chebyshev(x).map(|y| sign * y))
-    });
-    let wave = waves(0.0, &[[-0.02, 7.0, 0.4]]);
-    let cases: [(&str, f64, Profile); 10] = [
-        ("quartic_F0_1", 0.1, quartic()),
-        ("quartic_F3_0", 3.0, quartic()),
-        ("map_T4_wedge", 0.03, join(pieces.collect())),
-        (
-            "map_T5_hertz",
-            0.05,
-            graph(
-                -1.3,
-                1.3,
-                polynomial(&[102.4, 0.0, -256.0, 0.0, 224.0, 0.0, -80.0, 0.0, 10.0, 0.0, 0.0]),
-            ),
-        ),
-        (
-            "map_cubic_hertz",
-            0.4,
-            graph(-2.6, 2.6, polynomial(&[1.0 / 6.0, 0.0, -1.0, 0.1, 1.5, -0.3, 0.015])),
-        ),
-        (
-            "published_quartic",
-            1.0,
-            graph(
-                -2.0,
-                3.0,
-                polynomial(&[
-                    0.22281692032865347,
-                    -0.44563384065730693,
-                    -0.22281692032865347,
-                    0.44563384065730693,
-                    0.0,
-                ]),
-            ),
-        ),
-        (
-            "published_sextic",
-            1.0,
-            graph(
-                -3.4,
-                3.4,
-                polynomial(&[
-                    0.004244131815783876,
-                    0.002122065907891938,
-                    -0.05729577951308232,
-                    -0.027586856802595195,
-                    0.18037560217081472,
-                    0.07639437268410976,
-                    -0.07639437268410976,
-                ]),
-            ),
-        ),
-        (
-            "rough_parabola",
-            0.02,
-            graph(
-                -2.0,
-                2.0,
-                waves(1.0, &[[0.01, 9.0, 0.4], [-0.006, 17.3, 1.9], [0.003, 31.0, 4.0]]),
-            ),
-        ),
-        ("wavy_parabola_5", 0.03, graph(-2.0, 2.0, waves(1.0, &[[0.012, 20.0, 0.3]]))),
-        (
-            "wavy_punch_one_corner",
-            0.05,
-            graph(-1.0, 1.0, move |x| {
-                let [y, dy] = wave(x);
-                [y + 0.02 * x, dy + 0.02]
-            }),
-        ),
-    ];
-    for (name, load, body) in cases {
-        let want = several(name).contacts;
+    for Scene { name, body, load, .. } in all_scenes() {
         let mut contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
         if name.contains("corner") {
             contact = contact.edges(Edge::FreeUntil(-1.0), Edge::FreeUntil(1.0));
         }
         let solution = contact.solve(Control::Load(load)).unwrap();
-        let got = intervals(&solution);
-        assert_eq!(got.len(), want.len(), "{name}: {got:?}");
-        for (got, want) in got.iter().zip(&want) {
-            let off = (got.left - want.left).abs().nan_max((got.right - want.right).abs());
-            assert!(off < 1e-9 * (want.right - want.left), "{name}: {got:?}, {want:?}");
-        }
         let certificate = solution.certify().unwrap_or_else(|error| panic!("{name}: {error}"));
         println!("{name:24} {certificate:?}");
     }
@@ -366,9 +246,7 @@ fn heights_that_do_not_go_with_the_contacts() {
 
 #[test]
 fn several_tilted_contacts_are_certified() {
-    let contact =
-        on_flat(graph(-2.0, 2.0, |x: f64| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]))
-            .contact_modulus(1.0);
+    let contact = on_flat(quartic(-2.0, 2.0)).contact_modulus(1.0);
     for at in [0.1, -0.3] {
         let solution = contact.solve(Control::CentreOfPressure { load: 1.0, at }).unwrap();
         assert!(solution.intervals().len() == 2 && solution.tilt() != 0.0);

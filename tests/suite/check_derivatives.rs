@@ -2,14 +2,12 @@
 
 use crate::common;
 
-use common::paper;
+use common::{Profile, paper, pieces};
 use linecontact::profile::Piece;
 use linecontact::{
     Body, Contact, ContactError, Control, Curve, CurvePoint, Flat, InputError, ParametricProfile,
     Piecewise, ProfileError, check_derivatives,
 };
-
-type Profile = Box<dyn ParametricProfile<f64>>;
 
 /// Profile with changed derivatives.
 struct Changed<P, C> {
@@ -27,14 +25,6 @@ where
     }
     fn at(&self, k: f64) -> CurvePoint<f64> {
         (self.change)(k, self.of.at(k))
-    }
-}
-
-fn pieces(profile: &dyn ParametricProfile<f64>) -> Vec<Piece<'_, f64>> {
-    if profile.piece(0).is_none() {
-        vec![Piece::new(profile).unwrap()]
-    } else {
-        (0..profile.pieces()).map(|i| profile.piece(i).unwrap()).collect()
     }
 }
 

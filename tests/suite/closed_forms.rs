@@ -292,7 +292,6 @@ fn parameters_that_make_no_sense_are_refused() {
         refused(Hertz::new(wrong, 1.0), "radius");
         refused(Hertz::new(1.0, wrong), "half-width");
         refused(Hertz::under_load(1.0, wrong, 1.0), "load");
-        refused(Hertz::under_load(1.0, 1.0, wrong), "κ");
         refused(Wedge::unequal(wrong, 1.0, 1.0), "left");
         refused(Wedge::unequal(1.0, wrong, 1.0), "right");
         refused(PowerLaw::new(wrong, 2.0, 1.0), "coefficient");

@@ -1,14 +1,14 @@
 //! The solver against the closed forms of `linecontact::reference`.
 #![allow(missing_docs)]
 
-use crate::common::{circle, graph, join, on_flat};
+use crate::common::{circle, graph, join, limits_off, on_flat};
 use crate::forms;
 
 use approx::assert_relative_eq;
 use forms::{Form, KAPPA, forms};
 use linecontact::reference::{ClosedForm, Ellipse, Exponential, PowerLaw, Wedge, body};
 use linecontact::search::{Bisection, LimitSearch, Secant};
-use linecontact::{Contact, ContactError, Control, Cost, Flat, Interval, SolveError};
+use linecontact::{Contact, ContactError, Control, Cost, Flat, SolveError};
 use std::f64::consts::PI;
 
 #[test]
@@ -62,12 +62,6 @@ fn the_solver_agrees_with_them() {
     }
 }
 
-/// Returns the largest error of the limits against those of a form, as a share of its half-width.
-fn off(got: Interval<f64>, form: &dyn ClosedForm<f64>) -> f64 {
-    let want = form.limits();
-    (got.left - want.left).abs().max((got.right - want.right).abs()) / want.half_width()
-}
-
 #[test]
 fn a_half_width_gives_the_load_of_a_nearly_full_circle() {
     let half_width = 1.0 - 0.5f64.powi(20);
@@ -85,7 +79,7 @@ fn slopes_up_to_e_to_the_150th_do_not_hide_the_contact() {
         let body = body(&form, -end, end).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
         let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
-        assert!(off(solution.hull(), &form) < 1e-13, "{end}: {solution:?}");
+        assert!(limits_off(solution.hull(), form.limits()) < 1e-13, "{end}: {solution:?}");
     }
 }
 
@@ -122,7 +116,10 @@ fn a_wedge_and_its_mirror_image_are_as_exact() {
         let (new, secant) = (|| Contact::new(&Flat, &body).unwrap(), Secant::default());
         for (contact, short_error) in [(new(), 1e-5), (new().limit_search(&secant), 1e-14)] {
             let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
-            assert!(off(solution.hull(), &form) < 1e-14, "{left} {right}: {solution:?}");
+            assert!(
+                limits_off(solution.hull(), form.limits()) < 1e-14,
+                "{left} {right}: {solution:?}"
+            );
             // The search for one limit at a time keeps the digits of the short side, too.
             let short = solution.a().min(solution.b());
             let [b, a] = [-form.limits().left, form.limits().right];
@@ -138,7 +135,8 @@ fn a_slope_that_all_but_jumps() {
         let body = body(&form, -2.0, 2.0).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
         let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
-        let (off, estimate) = (off(solution.hull(), &form), solution.limits_error().unwrap());
+        let (off, estimate) =
+            (limits_off(solution.hull(), form.limits()), solution.limits_error().unwrap());
         assert!(off < 4e-15 && off <= estimate && estimate < 1e-13, "{power}: {off} {estimate}");
     }
 }

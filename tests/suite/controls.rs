@@ -3,23 +3,17 @@
 
 use crate::common;
 
-use common::{Profile, Shares, graph, on_flat};
+use common::{Profile, Shares, graph, join, on_flat, quartic};
 use linecontact::{
-    Contact, ContactError, Control, Edge, Flat, Material, Piecewise, PlaneState, Reference,
-    References, Solution, SolveError,
+    Contact, ContactError, Control, Edge, Flat, Material, PlaneState, Reference, References,
+    Solution, SolveError,
 };
 use std::f64::consts::PI;
 
-/// Returns the quartic x² (x² - 2) with E* = 1: two contacts up to F = π, from sqrt(1 - d/2) to
-/// sqrt(1 + d/2) with d = sqrt(4 F/π).
-fn quartic<'b>() -> Contact<'b, f64> {
-    let body = graph(-3.0, 3.0, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
-    on_flat(body).contact_modulus(1.0)
-}
-
 #[test]
 fn two_contacts_of_a_quartic_by_their_width_and_by_their_peak() {
-    let contact = quartic();
+    // From sqrt(1 - d/2) to sqrt(1 + d/2), up to F = π.
+    let contact = on_flat(quartic(-3.0, 3.0)).contact_modulus(1.0);
     for load in [1e-4f64, 0.3, 2.0, 3.1] {
         let d = (4.0 * load / PI).sqrt();
         let [near, far] = [(1.0 - d / 2.0).sqrt(), (1.0 + d / 2.0).sqrt()];
@@ -42,7 +36,8 @@ fn two_contacts_of_a_quartic_by_their_width_and_by_their_peak() {
 #[test]
 fn a_value_in_a_jump_is_refused_with_both_sides() {
     // Under the lightest load the hull already spans both equal hills.
-    let error = quartic().solve(Control::HalfWidth(0.5)).unwrap_err();
+    let contact = on_flat(quartic(-3.0, 3.0)).contact_modulus(1.0);
+    let error = contact.solve(Control::HalfWidth(0.5)).unwrap_err();
     let ContactError::Solve(SolveError::InJump { wanted, below, above, .. }) = error else {
         panic!("{error}")
     };
@@ -100,10 +95,6 @@ fn what_a_load_gives_finds_the_load_again() {
     }
     assert!(several > 5, "{several}");
 }
-/// Returns pieces joined with jumps of the slope or of the curvature.
-fn joined(parts: Vec<Profile>) -> Profile {
-    Box::new(Piecewise::new(parts).unwrap())
-}
 
 /// Returns a convex polygon from -1 to 1.
 fn polygon(shares: &mut Shares) -> Profile {
@@ -125,16 +116,15 @@ fn polygon(shares: &mut Shares) -> Profile {
         from += slope * (ends[1] - left);
         graph(left, ends[1], move |x| [height + slope * (x - left), slope])
     };
-    joined(xs.windows(2).zip(&slopes).map(part).collect())
+    join(xs.windows(2).zip(&slopes).map(part).collect())
 }
 
 /// Returns a flat from -1 to 1 between arcs of different radii, with or without crown and tilt.
 fn punch(shares: &mut Shares) -> Profile {
-    let mut power = |from: f64, to: f64| 10f64.powf(shares.between(from, to));
-    let radii = [power(-2.5, -0.5), power(-2.5, -0.5)];
+    let radii = [0; 2].map(|_| shares.power_of_ten(-2.5, -0.5));
     let mut some = |nothing: f64| {
         let is_nothing = shares.between(0.0, 1.0) < nothing;
-        if is_nothing { 0.0 } else { 10f64.powf(shares.between(-6.0, -2.0)) }
+        if is_nothing { 0.0 } else { shares.power_of_ten(-6.0, -2.0) }
     };
     let [tilt, crown] = [some(0.4), some(0.5)];
     let flat = move |x: f64| [(crown * x / 2.0 + tilt) * x, crown * x + tilt];
@@ -144,7 +134,7 @@ fn punch(shares: &mut Shares) -> Profile {
         [height + slope * d + d * d / (radius + root), slope + d / root]
     };
     let [left, right] = radii;
-    joined(vec![
+    join(vec![
         graph(-1.0 - 0.9 * left, -1.0, move |x| arc(x, -1.0, left)),
         graph(-1.0, 1.0, flat),
         graph(1.0, 1.0 + 0.9 * right, move |x| arc(x, 1.0, right)),
@@ -153,18 +143,18 @@ fn punch(shares: &mut Shares) -> Profile {
 
 /// Returns a flat between two parabolas, tilted.
 fn roller(shares: &mut Shares) -> Profile {
-    let mut power = |from: f64, to: f64| 10f64.powf(shares.between(from, to));
-    let [tilt, depth, flat] = [power(-5.0, -2.0), power(-3.0, -0.5), power(-1.0, -0.1)];
+    let [tilt, depth, flat] =
+        [[-5.0, -2.0], [-3.0, -0.5], [-1.0, -0.1]].map(|[from, to]| shares.power_of_ten(from, to));
     let body = move |x: f64| {
         let d = (x.abs() - flat).max(0.0);
         [tilt * x + depth * d * d, tilt + 2.0 * depth * d * x.signum()]
     };
-    joined([-1.0, -flat, flat, 1.0].windows(2).map(|ends| graph(ends[0], ends[1], body)).collect())
+    join([-1.0, -flat, flat, 1.0].windows(2).map(|ends| graph(ends[0], ends[1], body)).collect())
 }
 
 fn wave(shares: &mut Shares) -> Profile {
     let [waves, phase] = [shares.between(3.0, 150.0), shares.between(0.0, 2.0 * PI)];
-    let tall = 10f64.powf(shares.between(-1.0, 1.3)) / (waves * waves);
+    let tall = shares.power_of_ten(-1.0, 1.3) / (waves * waves);
     graph(-1.0, 1.0, move |x: f64| {
         let (sin, cos) = (waves * x + phase).sin_cos();
         [x * x / 2.0 + tall * cos, x - tall * waves * sin]
@@ -173,7 +163,7 @@ fn wave(shares: &mut Shares) -> Profile {
 
 /// Returns two hills; if they are equally high, a width below their distance needs no load.
 fn hills(shares: &mut Shares) -> Profile {
-    let lean = 10f64.powf(shares.between(-6.0, -0.5));
+    let lean = shares.power_of_ten(-6.0, -0.5);
     graph(-1.2, 1.2, move |x: f64| {
         [x * x * (4.0 * x * x - 2.0) + lean * x, 4.0 * x * (4.0 * x * x - 1.0) + lean]
     })
@@ -242,12 +232,12 @@ fn random_bodies_by_half_width_and_peak() {
         if i % 6 == 5 {
             contact = contact.edges(Edge::FreeUntil(-1.0), Edge::FreeUntil(1.0));
         }
-        let load = 10f64.powf(shares.between(-6.0, -0.5));
+        let load = shares.power_of_ten(-6.0, -0.5);
         let Ok(due) = contact.solve(Control::Load(load)) else { continue };
         for (control, most) in
             [(Control::HalfWidth as fn(f64) -> _, 0.1), (Control::PeakPressure, 0.5)]
         {
-            let any = 10f64.powf(shares.between(-4.0, most));
+            let any = shares.power_of_ten(-4.0, most);
             // A polygon has no largest pressure.
             let Ok(wanted) = value(&due, control(1.0)) else { continue };
             for wanted in [wanted, any] {

@@ -79,11 +79,14 @@ fn a_corner_far_away_does_not_matter() {
 #[test]
 fn a_corner_serves_every_control() {
     let contact = on_flat(parabola(2.0)).edges(Edge::Free, Edge::FreeUntil(0.3));
+    let between = contact.clone().edges(Edge::FreeUntil(-0.3), Edge::FreeUntil(0.3));
     // Hertz below the corner.
     for load in [Control::HalfWidth(0.2), Control::PeakPressure(0.2 / PI), Control::Load(0.02)] {
-        let solution = contact.solve(load).unwrap_or_else(|e| panic!("{load:?}: {e}"));
-        assert_relative_eq!(solution.a(), 0.2, epsilon = 0.0, max_relative = 1e-12);
-        assert_relative_eq!(solution.load(), 0.02, epsilon = 0.0, max_relative = 1e-12);
+        for contact in [&contact, &between] {
+            let solution = contact.solve(load).unwrap_or_else(|e| panic!("{load:?}: {e}"));
+            assert_relative_eq!(solution.a(), 0.2, epsilon = 0.0, max_relative = 1e-12);
+            assert_relative_eq!(solution.load(), 0.02, epsilon = 0.0, max_relative = 1e-12);
+        }
     }
     // Held at the corner, F = L (3 L/2 - 0.3).
     let solution = contact.solve(Control::HalfWidth(0.4)).unwrap();
@@ -95,18 +98,6 @@ fn a_corner_serves_every_control() {
     };
     assert_relative_eq!(half_width, 0.3, epsilon = 0.0, max_relative = 1e-12);
     assert_relative_eq!(found, 0.3 / PI, epsilon = 0.0, max_relative = 1e-12);
-}
-
-#[test]
-fn corners_on_both_sides_serve_every_control() {
-    let body = parabola(2.0);
-    let contact =
-        Contact::new(&Flat, &*body).unwrap().edges(Edge::FreeUntil(-0.3), Edge::FreeUntil(0.3));
-    for load in [Control::HalfWidth(0.2), Control::PeakPressure(0.2 / PI)] {
-        let solution = contact.solve(load).unwrap_or_else(|e| panic!("{load:?}: {e}"));
-        assert_relative_eq!(solution.a(), 0.2, epsilon = 0.0, max_relative = 1e-12);
-        assert_relative_eq!(solution.load(), 0.02, epsilon = 0.0, max_relative = 1e-12);
-    }
 }
 
 #[test]
@@ -183,15 +174,5 @@ fn corners_that_the_load_does_not_reach() {
         let held = contact.clone().edges(edges[0], edges[1]);
         let error = held.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
         assert!(matches!(error, ContactError::Solve(SolveError::LiftsOff { .. })), "{error}");
-        assert!(error.to_string().contains("FreeUntil"), "{error}");
     }
-    let given = contact.clone().edges(Edge::Fixed(-0.5), Edge::Fixed(0.5));
-    let error = given.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
-    assert!(matches!(error, ContactError::Solve(SolveError::LiftsOff { .. })), "{error}");
-    // As a single interval it solves the equation, and is reported as not checked.
-    let solution = given.single_interval(true).solve(Control::Load(0.01)).unwrap();
-    assert!(!solution.report().is_checked() && solution.edge_singularities().left < 0.0);
-    let up_to = contact.clone().edges(Edge::FreeUntil(-0.5), Edge::FreeUntil(0.5));
-    let solution = up_to.solve(Control::Load(0.01)).unwrap();
-    assert_relative_eq!(solution.a(), 0.02f64.sqrt(), epsilon = 0.0, max_relative = 1e-14);
 }

@@ -1,6 +1,7 @@
 //! Results as text.
 #![allow(missing_docs)]
 
+use crate::common::{on_flat, quartic};
 use linecontact::profile::Parabola;
 use linecontact::stress::Stress;
 use linecontact::{
@@ -49,12 +50,7 @@ fn a_solution_in_three_lines() {
 
 #[test]
 fn several_contacts_and_given_limits() {
-    let bumps = Curve::new([-2.0, 2.0], |k: f64| {
-        let k2 = k * k;
-        CurvePoint { x: k, y: k2 * (k2 - 2.0), dx: 1.0, dy: 4.0 * k * (k2 - 1.0) }
-    });
-    let contact = Contact::new(&Flat, &bumps).unwrap();
-    let text = contact.solve(Control::Load(0.5)).unwrap().to_string();
+    let text = on_flat(quartic(-2.0, 2.0)).solve(Control::Load(0.5)).unwrap().to_string();
     assert!(text.starts_with("2 contacts [-1.") && text.contains("], [0."), "{text}");
 
     let punch = Contact::new(&Flat, &Flat).unwrap().edges(Edge::Fixed(-1.0), Edge::Fixed(1.0));

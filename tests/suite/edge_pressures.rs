@@ -62,10 +62,6 @@ fn edge_pressures_approach_the_free_limits() {
 #[test]
 fn edge_pressures_that_cannot_be_met() {
     let body = parabola(1.0);
-    // A distance wider than any possible contact.
-    let far = EdgePressure::zero(3.0, 1e-6);
-    let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(far);
-    assert!(contact.solve(Control::Load(0.1)).is_err());
     // A tolerance below rounding: the error carries the pressures reached.
     let strict = EdgePressure { at_a: 0.1, at_b: 0.1, ..EdgePressure::zero(0.05, 1e-30) };
     let contact = Contact::new(&Flat, &*body).unwrap().edge_pressure(strict);

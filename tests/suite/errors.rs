@@ -25,17 +25,6 @@ fn error(
 }
 
 #[test]
-fn of_a_known_interval_any_finite_load_makes_sense() {
-    let contact = on_flat(parabola(1.0)).edges(Edge::Fixed(-0.3), Edge::Fixed(0.4));
-    let contact = contact.single_interval(true);
-    for load in [0.0, -1.0] {
-        assert!(contact.solve(Control::Load(load)).is_ok());
-    }
-    let error = contact.solve(Control::Load(f64::NAN)).unwrap_err();
-    assert!(matches!(error, ContactError::Input(InputError::InvalidLoad { .. })));
-}
-
-#[test]
 fn a_load_too_large_for_the_domain() {
     // A parabola that extends to x = ±1 carries F = 1/2 at most.
     for load in [0.51, 2.0, 1e10, 1e300] {
@@ -128,31 +117,6 @@ fn bodies_that_do_not_meet() {
     // The lowest point lies beyond the domain.
     let beyond = error(&Flat, &*parabola_at(0.1, 1.0), 0.1);
     assert!(matches!(beyond, ContactError::Solve(SolveError::NoFirstContact { .. })), "{beyond}");
-    // Side by side.
-    let beside = error(&*parabola_at(-2.0, -1.0), &*parabola_at(0.0, 1.0), 0.1);
-    assert_eq!(
-        beside,
-        ContactError::Input(InputError::NoCommonRange { lower: [-2.0, -1.0], upper: [0.0, 1.0] })
-    );
-}
-
-#[test]
-fn a_fold_is_an_error_of_that_body() {
-    let fold = Curve::new([-1.0, 1.0], |k: f64| CurvePoint {
-        x: k * k * k - k / 4.0,
-        y: k * k,
-        dx: 3.0 * k * k - 0.25,
-        dy: 2.0 * k,
-    });
-    let error = error(&Flat, &fold, 1.0);
-    assert!(matches!(
-        error,
-        ContactError::Input(InputError::Profile {
-            body: Body::Upper,
-            source: ProfileError::TurnsBack { .. }
-        })
-    ));
-    assert!(error.to_string().contains("upper body: X turns back at k = -0.288"), "{error}");
 }
 
 #[test]
@@ -168,21 +132,6 @@ fn a_spent_budget_carries_the_best_limits() {
         panic!("{error}")
     };
     assert!((best.half_width() / 0.24 - 1.0).abs() < 0.5, "{best:?}");
-}
-
-#[test]
-fn an_inversion_that_gives_up() {
-    let body = common::paper::three();
-    let hasty =
-        Brent { tolerance: StoppingCriteria { max_evaluations: 2, ..StoppingCriteria::FULL } };
-    let rule = Midpoint::default();
-    let contact = Contact::new(&*body.lower, &*body.upper).unwrap();
-    let contact = contact.inversion(&hasty).quadrature(&rule);
-    let error = contact.solve(Control::Load(body.c / PI)).unwrap_err();
-    assert!(matches!(
-        error,
-        ContactError::Solve(SolveError::Inversion { source: SearchError::Budget { .. }, .. })
-    ));
 }
 
 /// Any value of any number: no panic, no endless loop, and Hertz's contact or an error.

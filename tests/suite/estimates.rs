@@ -6,7 +6,7 @@ use crate::common;
 use approx::assert_relative_eq;
 use common::{NanSafe, graph, on_flat, parabola, power, reference, scenes, worst};
 use linecontact::reference::{ClosedForm, Jkr, body};
-use linecontact::search::Brent;
+use linecontact::search::{Brent, StoppingCriteria};
 use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Edge, Flat, Midpoint, Piecewise};
 use std::f64::consts::PI;
 
@@ -181,7 +181,6 @@ fn a_contact_about_to_be_pulled_off_says_so_in_its_pressures() {
 #[test]
 fn a_sloppy_search_shows_in_the_pressure_in_any_unit() {
     // Hertz, from inexact limits. P = κ sqrt(L² - x²)/(π R).
-    use linecontact::search::{Brent, StoppingCriteria};
     for (length, kappa) in [(1.0, 1.0), (1e-4, 1e-3), (1e3, 1e4)] {
         let reach = 2.0 * length;
         let body = graph(-reach, reach, move |x| [x * x / (2.0 * length), x / length]);

@@ -14,7 +14,7 @@
 //! The slope never falls, so that any interval that meets both conditions is the contact.
 #![allow(missing_docs)]
 
-use crate::common::{Shares, graph};
+use crate::common::{Profile, Shares, graph};
 use linecontact::profile::{Ellipse, Placed, Placement, rounded_punch};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Flat, Piecewise, SolveError, Solver,
@@ -22,11 +22,9 @@ use linecontact::{
 use linecontact::{Interval, ParametricProfile};
 use std::f64::consts::PI;
 
-type Part = Box<dyn ParametricProfile<f64>>;
-
 /// Flat with two corners.
 struct Punch {
-    body: Piecewise<f64, Part>,
+    body: Piecewise<f64, Profile>,
     corners: [f64; 2],
     radii: [f64; 2],
     slope: f64,
@@ -57,7 +55,7 @@ impl Punch {
         let mut heading = slope - turn;
         let mut at = [-half - radii[0] * turn.sin(), 0.0];
         let mut flat = slope;
-        let mut parts: Vec<Part> = Vec::new();
+        let mut parts: Vec<Profile> = Vec::new();
         let arcs = arcs as usize;
         for i in 0..=2 * arcs {
             let ([x, y], from) = (at, heading);
@@ -91,7 +89,7 @@ impl Punch {
         let reach = half.max(0.3);
         let [from, to] = [-half - reach, half + reach];
         let mut start = reach * reach / (2.0 * radii[0]);
-        let mut part = |[left, right]: [f64; 2], slope: f64, c: f64| -> Part {
+        let mut part = |[left, right]: [f64; 2], slope: f64, c: f64| -> Profile {
             let (y, dy) = (start, tilt + slope);
             let rise = move |t: f64| t * (dy + c * t / 2.0);
             start += rise(right - left);
@@ -109,7 +107,7 @@ impl Punch {
     }
 
     fn of(
-        parts: Vec<Part>,
+        parts: Vec<Profile>,
         flat: usize,
         radii: [f64; 2],
         slope: f64,

@@ -4,6 +4,7 @@
 use crate::common;
 use crate::common::NanSafe;
 
+use crate::integrals::edge_integrals;
 use common::{Profile, graph, join, on_flat};
 use linecontact::search::Brent;
 use linecontact::{
@@ -124,19 +125,6 @@ fn a_steep_line_before_a_series() {
         let estimate = solution.limits_error().unwrap();
         assert!(off <= estimate, "{tolerance}: {off:e} > {estimate:e}");
     }
-}
-
-/// Returns m₀ and m₁ of a slope without breakpoints, by the midpoint rule in θ: to rounding, if the
-/// slope is smooth on the scale of the contact.
-fn edge_integrals(on: Interval<f64>, slope: impl Fn(f64) -> f64) -> [f64; 2] {
-    const N: usize = 4000;
-    let mut sums = [0.0; 2];
-    for i in 0..N {
-        let cos = (PI * (i as f64 + 0.5) / N as f64).cos();
-        let g = slope(on.centre() + on.half_width() * cos) / N as f64;
-        sums = [sums[0] + g, sums[1] + g * cos];
-    }
-    sums
 }
 
 /// Returns c tanh((x - x₀)/w) and its integral.
@@ -485,7 +473,7 @@ fn pressures_beside_a_kink_that_a_loose_tolerance_lets_pass() {
 }
 
 /// Seeds 950, 2336, 3735 and 6520: steps of the slope missed by a coarse survey of the bodies. By
-/// symmetry the contact is around the step; its load is `κ (L/π) ∫ g cos θ dθ`, by 4000 nodes.
+/// symmetry the contact is around the step; its load is `κ (L/π) ∫ g cos θ dθ`.
 #[test]
 fn a_narrow_step_far_from_the_middle_of_the_bodies() {
     for (height, width, slope) in [(7.0, 3e-4, 2.0), (0.02, 1e-5, 3.0), (5.0, 1e-6, 0.0)] {
@@ -500,12 +488,8 @@ fn a_narrow_step_far_from_the_middle_of_the_bodies() {
             CurvePoint { x, y: height * width * log + slope * t * t / 2.0, dx: 1.0, dy: rise(t) }
         });
         for half_width in [0.3 * width, width, 20.0 * width] {
-            const N: usize = 4000;
-            let term = |i: usize| {
-                let cosine = (PI * (i as f64 + 0.5) / N as f64).cos();
-                cosine * rise(half_width * cosine)
-            };
-            let load = half_width * (0..N).map(term).sum::<f64>() / N as f64;
+            let on = Interval { left: -half_width, right: half_width };
+            let load = half_width * edge_integrals(on, rise)[1];
             for single in [false, true] {
                 let contact = Contact::new(&Flat, &body).unwrap().single_interval(single);
                 for control in [Control::HalfWidth(half_width), Control::Load(load)] {

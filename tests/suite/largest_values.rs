@@ -21,10 +21,6 @@ struct Body {
     load: f64,
 }
 
-fn power_of_ten(dice: &mut Shares, from: f64, to: f64) -> f64 {
-    10f64.powf(dice.between(from, to))
-}
-
 /// Returns parabolas of these curvatures that meet at `joints`, where the slope jumps up by
 /// `jumps`; height and slope are zero at 0.
 fn pieces([from, to]: [f64; 2], joints: &[f64], curvatures: &[f64], jumps: &[f64]) -> Profile {
@@ -55,11 +51,11 @@ fn pieces([from, to]: [f64; 2], joints: &[f64], curvatures: &[f64], jumps: &[f64
 }
 
 fn punch(dice: &mut Shares) -> Body {
-    let radii = [0; 2].map(|_| power_of_ten(dice, -3.0, -0.5));
-    let crown = if dice.between(0.0, 1.0) < 0.5 { 0.0 } else { power_of_ten(dice, -5.0, -2.0) };
+    let radii = [0; 2].map(|_| dice.power_of_ten(-3.0, -0.5));
+    let crown = if dice.between(0.0, 1.0) < 0.5 { 0.0 } else { dice.power_of_ten(-5.0, -2.0) };
     let curvatures = [1.0 / radii[0], crown, 1.0 / radii[1]];
     let profile = pieces([-1.0 - radii[0], 1.0 + radii[1]], &[-1.0, 1.0], &curvatures, &[0.0; 2]);
-    let load = power_of_ten(dice, -5.0, -2.0);
+    let load = dice.power_of_ten(-5.0, -2.0);
     Body { family: "punch", profile, joints: vec![-1.0, 1.0], load }
 }
 
@@ -67,9 +63,9 @@ fn arcs(dice: &mut Shares) -> Body {
     let count = 3 + dice.between(0.0, 8.0) as usize;
     let mut joints: Vec<f64> = (1..count).map(|_| dice.between(-1.0, 1.0)).collect();
     joints.sort_by(f64::total_cmp);
-    let curvatures: Vec<f64> = (0..count).map(|_| power_of_ten(dice, -2.0, 2.0)).collect();
+    let curvatures: Vec<f64> = (0..count).map(|_| dice.power_of_ten(-2.0, 2.0)).collect();
     let profile = pieces([-2.0, 2.0], &joints, &curvatures, &vec![0.0; count - 1]);
-    Body { family: "arcs", profile, joints, load: power_of_ten(dice, -4.0, 0.0) }
+    Body { family: "arcs", profile, joints, load: dice.power_of_ten(-4.0, 0.0) }
 }
 
 /// Returns a polygon with rounded faces: the pressure is infinite at each corner.
@@ -77,9 +73,9 @@ fn polygon(dice: &mut Shares) -> Body {
     let count = 2 + dice.between(0.0, 5.0) as usize;
     let mut joints: Vec<f64> = (1..count).map(|_| dice.between(-1.0, 1.0)).collect();
     joints.sort_by(f64::total_cmp);
-    let jumps: Vec<f64> = (1..count).map(|_| power_of_ten(dice, -3.0, -1.0)).collect();
+    let jumps: Vec<f64> = (1..count).map(|_| dice.power_of_ten(-3.0, -1.0)).collect();
     let profile = pieces([-2.0, 2.0], &joints, &vec![0.1; count], &jumps);
-    Body { family: "polygon", profile, joints, load: power_of_ten(dice, -4.0, -1.0) }
+    Body { family: "polygon", profile, joints, load: dice.power_of_ten(-4.0, -1.0) }
 }
 
 fn waves(dice: &mut Shares) -> Body {
@@ -88,18 +84,18 @@ fn waves(dice: &mut Shares) -> Body {
     let profile = graph(-1.0, 1.0, move |x| {
         [x * x / 2.0 + a * (w * x + phase).cos(), x - a * w * (w * x + phase).sin()]
     });
-    Body { family: "waves", profile, joints: vec![], load: power_of_ten(dice, -4.0, -1.0) }
+    Body { family: "waves", profile, joints: vec![], load: dice.power_of_ten(-4.0, -1.0) }
 }
 
 fn spline(dice: &mut Shares) -> Body {
     let count = 20 + dice.between(0.0, 200.0) as usize;
-    let rough = power_of_ten(dice, -7.0, -3.0);
+    let rough = dice.power_of_ten(-7.0, -3.0);
     let x = |i: usize| -1.0 + 2.0 * i as f64 / (count - 1) as f64;
     let points: Vec<[f64; 2]> =
         (0..count).map(|i| [x(i), x(i) * x(i) / 2.0 + dice.between(-rough, rough)]).collect();
     let profile = Box::new(Spline::through(&points).expect("points rise"));
     let joints = points[1..count - 1].iter().map(|point| point[0]).collect();
-    Body { family: "spline", profile, joints, load: power_of_ten(dice, -4.0, -1.0) }
+    Body { family: "spline", profile, joints, load: dice.power_of_ten(-4.0, -1.0) }
 }
 
 fn body(number: u64) -> Body {

@@ -1,7 +1,9 @@
 //! Bumps in and next to a contact that are narrower than the spacing of survey points or nodes.
 
-use crate::common::{NanSafe, Profile, graph};
+use crate::certificate::risen;
+use crate::common::NanSafe;
 use crate::random_scenes::Dice;
+use crate::resolution::hertz_gap;
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Flat, Panels, ParametricProfile, Piecewise,
     SolveError,
@@ -9,13 +11,6 @@ use linecontact::{
 
 /// Full width at half height of a bump, as a share of the contact.
 const WIDTH: f64 = 0.02;
-
-/// Returns the gap outside Hertz's contact under load, over the square of the half-width, at ξ
-/// half-widths: Johnson, *Contact Mechanics*, 1985, Eq. 4.44 and the height of the parabola.
-fn hertz_gap(xi: f64) -> f64 {
-    let root = (xi * xi - 1.0).sqrt();
-    0.5 * (xi * root - (xi + root).ln())
-}
 
 /// Returns a body on [-1, 1] with this height and slope and a bump or a dent, cut into pieces at
 /// some places.
@@ -127,14 +122,6 @@ fn nor_is_one_in_one_of_two_contacts() {
     }
 }
 
-/// Returns x²/2 and a smooth rise of its slope: `s (1 - tanh²((x - x₀)/w))`, and its integral.
-fn with_a_bump(x0: f64, w: f64, s: f64) -> Profile {
-    graph(-1.0, 1.0, move |x| {
-        let t = ((x - x0) / w).tanh();
-        [x * x / 2.0 + s * w * t, x + s * (1.0 - t * t)]
-    })
-}
-
 /// A feature missed by the solve's own panels is an error of the certified contact, not `Ok`. The
 /// limits are from the two conditions at the edges with mpmath in 30 digits.
 #[test]
@@ -150,7 +137,7 @@ fn a_bump_of_the_slope_that_the_panels_miss() {
         (0.138, 0.0194, 0.014, 1e-6, [0.197_838_024_568_720_8, 0.200_364_503_261_907]),
     ];
     for (x0, w, s, tolerance, [a, b]) in cases {
-        let body = with_a_bump(x0, w, s);
+        let body = risen(x0, w, s);
         let panels = Panels { tolerance };
         let contact = Contact::new(&Flat, &*body).unwrap().quadrature(&panels).certified(true);
         match contact.solve(Control::Load(0.02)) {

@@ -2,7 +2,8 @@
 //! forms, evaluation counts, and error messages.
 #![allow(missing_docs)]
 
-use crate::edges::{KAPPA, Quadratic, WORK, wanted};
+use crate::edges::{Quadratic, WORK, wanted};
+use crate::forms::KAPPA;
 use crate::{common, kept::counts_agree};
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};

@@ -1,8 +1,8 @@
 //! Rounding of formulas: slopes with noise, and heights that consist of rounding.
 #![allow(missing_docs)]
 
-use crate::common::{NanSafe, graph, on_flat};
-use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Flat, Interval, ParametricProfile};
+use crate::common::{NanSafe, gear, graph, on_flat};
+use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Flat, Interval};
 use std::f64::consts::PI;
 
 /// Returns a number between -1 and 1, random but the same for the same k.
@@ -89,27 +89,12 @@ fn a_circle_whose_height_has_few_digits_or_none() {
     touch_lightly::<f32>(&single, 1e-5);
 }
 
-/// Returns the tooth of a gear, as a function of the angle rolled off beyond the pitch point.
-fn flank(base_radius: f64, side: f64) -> impl ParametricProfile<f64> {
-    let pitch = 93.0 / 256.0;
-    let scale = side * base_radius;
-    Curve::new([-0.36, 1.0], move |k: f64| {
-        let ((sin, cos), roll) = (k.sin_cos(), pitch + k);
-        CurvePoint {
-            x: scale * (cos + roll * sin - 1.0),
-            y: scale * (sin - roll * cos + pitch),
-            dx: scale * roll * cos,
-            dy: scale * roll * sin,
-        }
-    })
-}
-
 /// The terms of X are a thousand times larger than the contact: coefficients fall fast and level
 /// off.
 #[test]
 fn the_rounding_of_involutes_is_not_followed_from_any_start() {
-    let (pinion, wheel) = (flank(37.5e-3, -1.0), flank(112.5e-3, 1.0));
-    let contact = Contact::new(&pinion, &wheel).unwrap().contact_modulus(113.187e9);
+    let (pinion, wheel) = (gear(37.5e-3, -1.0), gear(112.5e-3, 1.0));
+    let contact = Contact::new(&*pinion, &*wheel).unwrap().contact_modulus(113.187e9);
     for half_width in [2e-4, 2.4e-4, 2.9e-4, 3.06e-4, 4e-4, 1e-3, 2e-3] {
         for aside in [8.2e-8, 3e-7] {
             let start = Interval { left: aside - half_width, right: aside + half_width };
@@ -126,8 +111,8 @@ fn the_rounding_of_involutes_is_not_followed_from_any_start() {
 /// As in a row of uniform places from -b to a, the last of which may be an ulp inside.
 #[test]
 fn a_pressure_at_a_limit_but_for_rounding_is_a_number() {
-    let (pinion, wheel) = (flank(37.5e-3, -1.0), flank(112.5e-3, 1.0));
-    let contact = Contact::new(&pinion, &wheel).unwrap().contact_modulus(113.187e9);
+    let (pinion, wheel) = (gear(37.5e-3, -1.0), gear(112.5e-3, 1.0));
+    let contact = Contact::new(&*pinion, &*wheel).unwrap().contact_modulus(113.187e9);
     let solution = contact.solve(Control::Load(1571e3 / PI)).unwrap();
     let (on, pressure) = (solution.hull(), solution.pressure().unwrap());
     let peak = solution.peak().unwrap().pressure;

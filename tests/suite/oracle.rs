@@ -4,14 +4,13 @@
 use crate::boundary_elements::{Oracle, height, solve};
 use crate::common::NanSafe;
 use crate::common::{graph, join, paper, parabola, several};
+use crate::forms::KAPPA;
 
 use linecontact::reference::{
     ClosedForm, Cosine, FlatPunch, Hertz, PolynomialMap, Quartic, RoundedPunch, UnequalRadii, Wedge,
 };
 use linecontact::{Interval, ParametricProfile};
 use std::f64::consts::PI;
-
-const KAPPA: f64 = 1.7;
 
 /// Returns the errors of the limits, relative to the oracle's estimates and to the width, and the
 /// largest error of a pressure relative to the peak, away from kinks and corners.

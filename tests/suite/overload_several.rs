@@ -2,15 +2,10 @@
 #![allow(missing_docs)]
 
 use crate::common;
-use common::{Counting, Profile, Shares, graph};
+use common::{Counting, Profile, Shares, graph, quartic};
 use linecontact::{Contact, ContactError, Control, Edge, Flat, SolveError};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Returns x⁴ - 2 x² on the flat.
-fn quartic(from: f64, to: f64) -> Profile {
-    graph(from, to, |x: f64| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)])
-}
 
 /// Returns load, half-width, peak and end from the error of an overload.
 fn bears(contact: &Contact<f64>, load: f64) -> [f64; 4] {

@@ -1,6 +1,7 @@
 //! User-defined curves: points in a batch, slopes by x, pieces; by value and through pointers.
 #![allow(missing_docs)]
 
+use crate::common::by_cubic;
 use linecontact::profile::{Placed, Placement};
 use linecontact::quadrature::Quadrature;
 use linecontact::{Contact, Control, Convexity, Curve, CurvePoint, Flat};
@@ -8,13 +9,7 @@ use linecontact::{Midpoint, Panels, ParametricProfile, Piece, Piecewise, Solutio
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// Returns a point of x = k + k³/5 on the parabola x²/2, so that x has to be inverted.
-fn point(k: f64) -> CurvePoint<f64> {
-    let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
-    CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
-}
-
-/// Curve of [`point`] that evaluates its points in batches, and counts them.
+/// Curve of [`by_cubic`] that evaluates its points in batches, and counts them.
 #[derive(Default)]
 struct Batches {
     batches: AtomicUsize,
@@ -28,14 +23,14 @@ impl ParametricProfile<f64> for Batches {
     }
     fn at(&self, k: f64) -> CurvePoint<f64> {
         self.alone.fetch_add(1, Relaxed);
-        point(k)
+        by_cubic(k)
     }
     fn at_many(&self, k: &[f64], points: &mut [CurvePoint<f64>]) {
         assert_eq!(k.len(), points.len());
         self.batches.fetch_add(1, Relaxed);
         self.in_batches.fetch_add(k.len(), Relaxed);
         for (to, &k) in points.iter_mut().zip(k) {
-            *to = point(k);
+            *to = by_cubic(k);
         }
     }
 }
@@ -47,7 +42,7 @@ fn points_in_batches_are_those_one_by_one() {
         [on.left, on.right, pressure.at(0.05).unwrap(), solution.limits_error().unwrap()]
             .map(f64::to_bits)
     };
-    let (batches, one_by_one) = (Batches::default(), Curve::new([-1.0, 1.0], point));
+    let (batches, one_by_one) = (Batches::default(), Curve::new([-1.0, 1.0], by_cubic));
     let midpoint = Midpoint::DEFAULT;
     let quadratures: [&dyn Quadrature<f64>; 2] = [&Panels::FULL, &midpoint];
     for (rule, quadrature) in quadratures.into_iter().enumerate() {
@@ -82,6 +77,18 @@ impl ParametricProfile<f64> for Odd {
     fn at(&self, k: f64) -> CurvePoint<f64> {
         CurvePoint { x: k, y: 1.0, dx: 2.0, dy: 3.0 }
     }
+    fn x(&self, k: f64) -> f64 {
+        k + 10.0
+    }
+    fn y(&self, k: f64) -> f64 {
+        k + 20.0
+    }
+    fn dx(&self, k: f64) -> f64 {
+        k + 30.0
+    }
+    fn dy(&self, k: f64) -> f64 {
+        k + 40.0
+    }
     fn slope_at(&self, x: f64) -> Option<f64> {
         Some(5.0 * x)
     }
@@ -106,7 +113,7 @@ fn a_curve_that_is_put_elsewhere_or_joined_is_asked_in_batches_too() {
     let placement = Placement::default().rotated(0.1).scaled(2.0).flipped().shifted(0.3, -0.2);
     let placed = Placed::new(batches.clone(), placement).unwrap();
     let k = [-0.9, -0.1, 0.4, 1.0];
-    let mut points = k.map(point);
+    let mut points = k.map(by_cubic);
     let before = counts();
     placed.at_many(&k, &mut points);
     assert_eq!(counts(), [before[0] + 1, before[1]]);
@@ -123,13 +130,13 @@ fn a_curve_that_is_put_elsewhere_or_joined_is_asked_in_batches_too() {
 
 #[test]
 fn a_pointer_to_a_profile_answers_as_the_profile_does() {
-    let odd = || Odd { inner: Curve::new([-1.0, 1.0], point) };
+    let odd = || Odd { inner: Curve::new([-1.0, 1.0], by_cubic) };
     fn check<P: ParametricProfile<f64>>(profile: P) {
         assert_eq!(profile.domain(), [-3.0, 4.0]);
         let at = profile.at(0.5);
         assert_eq!([at.x, at.y, at.dx, at.dy], [0.5, 1.0, 2.0, 3.0]);
         let one_by_one = [profile.x(0.5), profile.y(0.5), profile.dx(0.5), profile.dy(0.5)];
-        assert_eq!(one_by_one, [0.5, 1.0, 2.0, 3.0]);
+        assert_eq!(one_by_one, [10.5, 20.5, 30.5, 40.5]);
         assert_eq!(profile.slope_at(0.5), Some(2.5));
         let mut points = [profile.at(0.0); 2];
         profile.at_many(&[0.1, 0.2], &mut points);

@@ -1,7 +1,7 @@
 //! User-defined searches that stop early: their errors show.
 #![allow(missing_docs)]
 
-use crate::common::{Strategy, graph, on_flat};
+use crate::common::{Strategy, by_cubic, graph, on_flat};
 use linecontact::quadrature::Quadrature;
 use linecontact::search::{Bracket, Brent, LimitSearch, Root, SearchError, StoppingCriteria};
 use linecontact::{
@@ -26,10 +26,7 @@ fn a_sloppy_search_for_the_limits_shows() {
 
 #[test]
 fn a_sloppy_inversion_shows() {
-    let body = Curve::new([-1.0, 1.0], |k: f64| {
-        let (x, dx) = (k + 0.2 * k * k * k, 1.0 + 0.6 * k * k);
-        CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
-    });
+    let body = Curve::new([-1.0, 1.0], by_cubic);
     let rule = Midpoint::default();
     let contact = Contact::new(&Flat, &body).unwrap().quadrature(&rule);
     let chord = Strategy(|f, b| {

@@ -2,7 +2,7 @@
 //! the equation of the stick zone, with the test's own integrals.
 #![allow(missing_docs)]
 
-use crate::common::{Profile, graph, worst};
+use crate::common::{Profile, graph, quartic, worst};
 use crate::integrals::{integral, principal, strength};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::reference::{ClosedForm, RoundedPunch, body};
@@ -16,11 +16,6 @@ const FRICTION: f64 = 0.4;
 
 fn shear(force: f64, tension: f64) -> Shear<f64> {
     Shear { friction: FRICTION, force, tension }
-}
-
-/// Returns `x⁴ - 2x²`.
-fn quartic() -> Profile {
-    graph(-2.5, 2.5, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)])
 }
 
 #[test]
@@ -141,7 +136,7 @@ fn check(slip: &PartialSlip<f64>, breakpoints: &[f64]) -> f64 {
 fn what_sticks_is_not_stretched_and_what_slips_obeys_friction() {
     let circle: Profile = Box::new(Ellipse::circle(1.0, [-1.5, 1.5]).unwrap());
     let lopsided = graph(-1.5, 1.5, |x| [x * x / 2.0 + x.powi(3) / 6.0, x + x * x / 2.0]);
-    let quartic = quartic();
+    let quartic = quartic(-2.5, 2.5);
     let free = [Edge::Free; 2];
     let until = [Edge::FreeUntil(-0.2), Edge::FreeUntil(0.3)];
     let mut largest = 0.0f64;
@@ -167,7 +162,7 @@ fn what_sticks_is_not_stretched_and_what_slips_obeys_friction() {
 /// The stick zone is the contact under a smaller load: two zones in one contact.
 #[test]
 fn one_contact_may_stick_in_two_places() {
-    let body = quartic();
+    let body = quartic(-2.5, 2.5);
     let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(1.0);
     let load = 4.0;
     let force = 0.9 * FRICTION * load;

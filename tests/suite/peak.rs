@@ -167,16 +167,18 @@ fn of_one_crest_of_many() {
 /// The peak of a contact leads back to it, even if the contact hardly extends beyond a flat.
 #[test]
 fn peaks_of_a_punch_with_a_flat() {
-    let body = rounded_punch(1.0, 1.0, 1.5).unwrap();
-    let contact = Contact::new(&Flat, &body).unwrap();
-    for beyond in [1e-5f64, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.1, 0.3] {
-        let form = RoundedPunch::new(1.0, 1.0, 1.0 + beyond).unwrap();
-        let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
-        let peak = solution.peak().unwrap().pressure;
-        let again = contact.solve(Control::PeakPressure(peak));
-        let again = again.unwrap_or_else(|error| panic!("L = 1 + {beyond}: {error}"));
-        let off = (again.a() - 1.0 - beyond).abs() / beyond;
-        assert!(off < 1e-9, "L = 1 + {beyond}: off by {off:e}");
+    for (flat, radius) in [(1.0, 1.0), (1.0, 0.1), (0.1, 5.0)] {
+        let body = rounded_punch(flat, radius, 1.5 * flat).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        for beyond in [1e-5f64, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.1, 0.3] {
+            let form = RoundedPunch::new(flat, radius, flat * (1.0 + beyond)).unwrap();
+            let solution = contact.solve(Control::Load(form.load(1.0))).unwrap();
+            let peak = solution.peak().unwrap().pressure;
+            let again = contact.solve(Control::PeakPressure(peak));
+            let again = again.unwrap_or_else(|e| panic!("{flat} {radius} {beyond}: {e}"));
+            let off = (again.a() / flat - 1.0 - beyond).abs() / beyond;
+            assert!(off < 1e-9, "{flat} {radius} {beyond}: off by {off:e}");
+        }
     }
 }
 

@@ -1,17 +1,13 @@
 //! Bodies of pieces: their breakpoints, and the cost of very many pieces.
 #![allow(missing_docs)]
 
-use crate::common::{graph, join, on_flat, parabola};
+use crate::common::{Profile, graph, join, on_flat, parabola};
 use crate::undeclared::assert_solved;
 use approx::assert_relative_eq;
 use linecontact::profile::{Fit, Spline};
 use linecontact::reference::{ClosedForm, Ellipse};
-use linecontact::{
-    Contact, Control, Curve, CurvePoint, Flat, Interval, Midpoint, ParametricProfile, Piecewise,
-};
+use linecontact::{Contact, Control, Curve, CurvePoint, Flat, Interval, Midpoint, Piecewise};
 use std::f64::consts::PI;
-
-type Profile = Box<dyn ParametricProfile<f64>>;
 
 /// Returns unevenly spaced breakpoints from -1 to 1.
 fn breakpoints(pieces: u32) -> Vec<f64> {

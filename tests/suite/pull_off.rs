@@ -1,7 +1,8 @@
 //! Adhesive contacts under a pull, down to pull-off and beyond it.
 #![allow(missing_docs)]
 
-use crate::edges::{KAPPA, Quadratic};
+use crate::edges::Quadratic;
+use crate::forms::KAPPA;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use linecontact::{Contact, ContactError, Control, Edge, Flat, SolveError, Solver};
@@ -52,24 +53,13 @@ impl PullOff {
 
 #[test]
 fn adhesion_bears_a_pull_down_to_pull_off() {
-    let [both, left, right] = PullOff::cases();
-    for part in [0.0, 0.5, 0.9, 0.99, 0.9999, 0.999999] {
-        both.check(part);
+    for case in PullOff::cases() {
+        // At 0.84 of the load a free edge passes x = 0, the lowest point of the body.
+        for part in [0.0, 0.5, 0.83, 0.85, 0.9, 0.99, 0.9999] {
+            case.check(part);
+        }
     }
-    for part in [0.0, 0.5, 0.83] {
-        left.check(part);
-        right.check(part);
-    }
-}
-
-#[test]
-fn one_adhesive_edge_bears_a_pull_down_to_pull_off() {
-    // At 0.84 of the load the free edge passes x = 0, the lowest point of the body.
-    let [_, left, right] = PullOff::cases();
-    for part in [0.85, 0.9, 0.99, 0.9999] {
-        left.check(part);
-        right.check(part);
-    }
+    PullOff::cases()[0].check(0.999999);
 }
 
 #[test]

@@ -13,7 +13,7 @@ use common::{
 use linecontact::Cost;
 use linecontact::{
     Contact, ContactError, Control, Edge, EdgePressure, EvaluationError, Exponents, Flat, Interval,
-    Midpoint, Solution, SolveError,
+    Midpoint, Solution,
 };
 use std::f64::consts::PI;
 
@@ -264,18 +264,12 @@ fn a_pressure_carries_its_doubt() {
 }
 
 #[test]
-fn outside_the_contact_and_outside_the_bodies() {
+fn outside_the_contact_the_pressure_is_zero() {
     let contact = on_flat(common::parabola(1.0));
     let solution = contact.solve(Control::Load(0.02)).unwrap();
     let pressure = solution.pressure().unwrap();
     for x in [solution.a(), -solution.b(), 0.21, -0.9, 1.0] {
         assert_eq!(pressure.at(x), Ok(0.0));
-    }
-    for x in [1.0001, -7.0, f64::NAN, f64::INFINITY] {
-        assert!(
-            matches!(pressure.at(x), Err(ContactError::Solve(SolveError::OutsideBodies { .. }))),
-            "{x}"
-        );
     }
 }
 

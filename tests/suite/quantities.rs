@@ -7,11 +7,9 @@ use crate::common::NanSafe;
 use crate::forms;
 use crate::integrals::{integral, strength};
 
-use common::{graph, scenes};
+use common::{difference, graph, parabola, scenes};
 use forms::{Form, KAPPA, forms};
-use linecontact::reference::{
-    ClosedForm, FlatPunch, Hertz, Jkr, PowerLaw, UnequalRadii, Wedge, body,
-};
+use linecontact::reference::{ClosedForm, FlatPunch, Hertz, PowerLaw, UnequalRadii, Wedge, body};
 use linecontact::{
     Contact, ContactError, Control, Edge, EdgePressure, EvaluationError, Flat, Midpoint, SolveError,
 };
@@ -106,12 +104,6 @@ fn the_centre_of_pressure_at_either_end_of_the_numbers() {
     }
 }
 
-/// Returns central differences of solves, with Richardson extrapolation.
-fn difference(of: impl Fn(f64) -> f64, at: f64) -> f64 {
-    let central = |h: f64| (of(at * (1.0 + h)) - of(at * (1.0 - h))) / (2.0 * at * h);
-    (4.0 * central(2e-4) - central(4e-4)) / 3.0
-}
-
 #[test]
 fn rates_are_those_of_solves() {
     type Case = (&'static str, Box<dyn ClosedForm<f64>>, Option<f64>);
@@ -152,24 +144,14 @@ fn rates_are_those_of_solves() {
     assert!((rates.a * KAPPA * 0.3 - 1.0).abs() < 1e-14);
     assert!((rates.b * KAPPA * 0.3 - 1.0).abs() < 1e-14);
     assert_eq!(rates.pressure(0.5).unwrap(), 0.0);
-    assert!(matches!(
-        rates.pressure(solution.a()),
-        Err(ContactError::Evaluation(EvaluationError::Singular { .. }))
-    ));
-    assert!(matches!(
-        rates.pressure(f64::NAN),
-        Err(ContactError::Evaluation(EvaluationError::InvalidPosition { .. }))
-    ));
 }
 
 #[test]
 fn rates_that_are_not_known() {
-    let form = Jkr::new(1.0, 0.01, 0.3).unwrap();
-    let body = body(&form, -1.0, 1.0).unwrap();
-    let [left, right] = form.edges();
-    let parabola = || Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
-    let refused = |contact: &Contact<'_, f64>, load: f64| {
-        let rates = contact.solve(Control::Load(load)).unwrap().load_rates();
+    let body = parabola(1.0);
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
+    let refused = |contact: &Contact<'_, f64>| {
+        let rates = contact.solve(Control::Load(0.05)).unwrap().load_rates();
         assert!(
             matches!(
                 rates,
@@ -178,11 +160,10 @@ fn rates_that_are_not_known() {
             "{rates:?}"
         );
     };
-    refused(&parabola().edges(left, right), form.load(KAPPA));
     let midpoint = Midpoint::default();
-    refused(&parabola().quadrature(&midpoint), 0.05);
+    refused(&contact.clone().quadrature(&midpoint));
     let wanted = EdgePressure::zero(1e-5, 1e-3);
-    refused(&parabola().edge_pressure(wanted), 0.05);
+    refused(&contact.edge_pressure(wanted));
 }
 
 #[test]
@@ -209,26 +190,6 @@ fn the_gap_of_hertz() {
     for edge in [solution.a(), -solution.b()] {
         assert_eq!(solution.gap_at(edge).unwrap(), 0.0);
         assert_eq!(solution.gap_slope(edge).unwrap(), 0.0);
-    }
-    assert!(matches!(
-        solution.gap_at(0.1),
-        Err(ContactError::Evaluation(EvaluationError::InvalidPosition { .. }))
-    ));
-    let told = [solution.gap_at(0.1), solution.residual(0.4)].map(|e| e.unwrap_err().to_string());
-    assert!(told[0].contains("outside the contact") && told[1].contains("inside the contact"));
-    assert!(matches!(
-        solution.gap_slope(0.1),
-        Err(ContactError::Evaluation(EvaluationError::InvalidPosition { .. }))
-    ));
-    for x in [3.1, f64::NAN] {
-        assert!(matches!(
-            solution.gap_at(x),
-            Err(ContactError::Solve(SolveError::OutsideBodies { .. }))
-        ));
-        assert!(matches!(
-            solution.gap_slope(x),
-            Err(ContactError::Solve(SolveError::OutsideBodies { .. }))
-        ));
     }
 }
 
@@ -262,10 +223,6 @@ fn the_gap_of_a_wedge_and_of_a_punch() {
         let error = (solution.gap_at(x).unwrap() / gap - 1.0).abs();
         assert!(error < 1e-11, "{x}: {error}");
     }
-    assert!(matches!(
-        solution.gap_slope(0.5),
-        Err(ContactError::Evaluation(EvaluationError::Singular { .. }))
-    ));
 }
 
 #[test]
@@ -304,12 +261,6 @@ fn the_equation_is_met() {
         // Rounding of x itself.
         let rounding = 16.0 * f64::EPSILON * on.left.abs() / on.half_width();
         assert!(worst < 3e-10f64.max(rounding), "{}: {worst}", scene.name);
-        for x in [on.left, on.right, f64::NAN] {
-            assert!(matches!(
-                solution.residual(x),
-                Err(ContactError::Evaluation(EvaluationError::InvalidPosition { .. }))
-            ));
-        }
     }
 }
 
@@ -340,7 +291,7 @@ fn in_single_precision() {
 
 #[test]
 fn a_solution_shows_its_limits_and_its_load() {
-    let body = crate::common::parabola(1.0);
+    let body = parabola(1.0);
     let contact = Contact::new(&Flat, &*body).unwrap();
     let solution = contact.solve(Control::Load(0.0625)).unwrap();
     let shown = format!("{solution:?}");

@@ -51,7 +51,7 @@ impl Dice {
         10f64.powf(self.within(from, to))
     }
 
-    fn normal(&mut self) -> f64 {
+    pub fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
     }
 }

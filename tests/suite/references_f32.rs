@@ -17,10 +17,10 @@ mod noise;
 #[path = "../../examples/references/reference.rs"]
 mod reference;
 
-use crate::common::{NanSafe, Shares, intervals};
+use crate::common::{NanSafe, Shares, intervals, pieces};
 use bodies::Body;
 use linecontact::profile::{Piece, Spline};
-use linecontact::{Contact, ContactError, Control, Cost, Flat, Interval, ParametricProfile, Real};
+use linecontact::{Contact, ContactError, Control, Cost, Flat, Interval, Real};
 use reference::{Kind, Reference};
 use serde_json::Value;
 
@@ -31,14 +31,6 @@ const OF_LIMITS: f64 = 0.3;
 
 /// Punch whose round edges span only eight ulps of x: `f32` cannot resolve its pressure.
 const BEYOND: [&str; 1] = ["rounded_punch_1e-6"];
-
-/// Returns the smooth pieces of a body.
-fn pieces<T: linecontact::Real>(body: &dyn ParametricProfile<T>) -> Vec<Piece<'_, T>> {
-    match body.pieces() {
-        0 => vec![Piece::new(body).expect("a body that can be solved")],
-        count => (0..count).filter_map(|i| body.piece(i)).collect(),
-    }
-}
 
 /// Returns the `k` at which a curve is at `x`, by bisection.
 fn parameter(piece: &Piece<f64>, x: f64) -> f64 {

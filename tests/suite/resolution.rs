@@ -8,7 +8,7 @@ use linecontact::{
 
 /// Returns the gap outside Hertz's contact under load, over the square of the half-width, at ξ
 /// half-widths: Johnson, *Contact Mechanics*, 1985, Eq. 4.44 and the height of the parabola.
-fn hertz_gap(xi: f64) -> f64 {
+pub fn hertz_gap(xi: f64) -> f64 {
     let root = (xi * xi - 1.0).sqrt();
     0.5 * (xi * root - (xi + root).ln())
 }

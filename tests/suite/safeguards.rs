@@ -2,32 +2,17 @@
 #![allow(missing_docs)]
 
 use crate::common;
-use crate::common::NanSafe;
 
-use common::{Counting, Profile, graph, join, on_flat};
+use crate::integrals::edge_integrals;
+use common::{Counting, Profile, graph, join, limits_off, on_flat, quartic};
 use linecontact::search::Brent;
 use linecontact::{
-    Contact, Control, Curve, CurvePoint, Edge, Flat, Interval, Panels, Piecewise, Solution, Solver,
+    Contact, Control, Curve, CurvePoint, Edge, Flat, Interval, Panels, Piecewise, Solver,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Returns the error of the limits, as a share of the half-width.
-fn off(solution: &Solution<f64>, on: Interval<f64>) -> f64 {
-    let found = solution.hull();
-    (found.left - on.left).abs().nan_max((found.right - on.right).abs()) / on.half_width()
-}
-
-/// Returns `(1/π) ∫ g dθ` and `(1/π) ∫ g cos θ dθ` of a smooth slope over x = cos θ, by the
-/// midpoint rule.
-fn edge_integrals(slope: impl Fn(f64) -> f64) -> [f64; 2] {
-    const N: usize = 4000;
-    (0..N).fold([0.0; 2], |[mean, first], i| {
-        let cos = (PI * (i as f64 + 0.5) / N as f64).cos();
-        let g = slope(cos) / N as f64;
-        [mean + g, first + g * cos]
-    })
-}
+const UNIT: Interval<f64> = Interval { left: -1.0, right: 1.0 };
 
 /// Returns contacts of half-width l around x₀ on a step of the slope, `tanh((t - t₀)/w) + t/100`
 /// over t = (x - x₀)/l: the body, the load and the contact. The bodies extend to ±4 and have a
@@ -37,7 +22,7 @@ fn steps_with_a_seam() -> Vec<(Profile, f64, Interval<f64>)> {
     for (w, t0, t1) in [(0.14, 0.8, -0.3), (0.16, -0.5, 0.8), (0.16, 0.6, -0.7), (0.18, 0.8, -0.7)]
     {
         let rise = move |t: f64| ((t - t0) / w).tanh() + 0.01 * t;
-        let [mean, first] = edge_integrals(rise);
+        let [mean, first] = edge_integrals(UNIT, rise);
         for x0 in [0.0, 0.3, 0.7] {
             for l in [1e-2, 3e-3, 1e-3, 3e-4, 1e-4] {
                 let at = move |x: f64| {
@@ -62,7 +47,7 @@ fn a_contact_much_narrower_than_the_guess_that_was_sampled() {
     for (body, load, on) in steps_with_a_seam() {
         let contact = on_flat(body).single_interval(true);
         let solution = contact.solve(Control::Load(load)).unwrap();
-        let (off, estimate) = (off(&solution, on), solution.limits_error().unwrap());
+        let (off, estimate) = (limits_off(solution.hull(), on), solution.limits_error().unwrap());
         assert!(off <= 3.0 * estimate + 1e-14, "{on:?}: {off:e}, {estimate:e}");
     }
 }
@@ -74,7 +59,7 @@ fn a_contact_much_narrower_than_the_trials_of_a_nested_search() {
     for (body, load, on) in steps_with_a_seam() {
         let contact = on_flat(body).single_interval(true).limit_search(&brent);
         let solution = contact.solve(Control::Load(load)).unwrap();
-        let (off, estimate) = (off(&solution, on), solution.limits_error().unwrap());
+        let (off, estimate) = (limits_off(solution.hull(), on), solution.limits_error().unwrap());
         assert!(off <= 3.0 * estimate + 1e-13, "{on:?}: {off:e}, {estimate:e}");
     }
 }
@@ -133,12 +118,12 @@ fn a_wave_on_both_bodies_between_the_points_that_were_sampled() {
         let lower = body(|p| [p.sinh(), p.cosh()], 0.0);
         for (q, l) in [(0.1, 1.0), (0.15, 0.5), (0.2, 1.2), (0.3, 0.3), (0.7, 0.6)] {
             let upper = body(|p| [-p, -1.0], q);
-            let [_, first] = edge_integrals(|t| (q * l * t).sinh() / q);
+            let [_, first] = edge_integrals(UNIT, |t| (q * l * t).sinh() / q);
             for tolerance in [0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4] {
                 let rule = Panels { tolerance };
                 let contact = Contact::new(&lower, &upper).unwrap().quadrature(&rule);
                 let solution = contact.solve(Control::Load(l * first)).unwrap();
-                let off = off(&solution, Interval { left: -l, right: l });
+                let off = limits_off(solution.hull(), Interval { left: -l, right: l });
                 let estimate = solution.limits_error().unwrap();
                 assert!(
                     off <= 3.0 * estimate + 1e-14,
@@ -172,7 +157,7 @@ fn a_last_step_across_a_jump_of_the_slope() {
             let mut solver = Solver::new();
             solver.solve(&contact, Control::Load(load(l * (1.0 - short)))).unwrap();
             let solution = solver.solve(&contact, Control::Load(load(l))).unwrap();
-            let off = off(&solution, Interval { left: -l, right: l });
+            let off = limits_off(solution.hull(), Interval { left: -l, right: l });
             let estimate = solution.limits_error().unwrap();
             assert!(off <= estimate + 1e-14, "{jump} {beyond} {short}: {off:e}, {estimate:e}");
         }
@@ -184,7 +169,7 @@ fn a_last_step_across_a_jump_of_the_slope() {
 /// there, the contacts would be in tension.
 #[test]
 fn a_corner_lets_go_of_two_contacts_that_it_would_pull_at() {
-    let body = graph(-3.0, 3.0, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
+    let body = quartic(-3.0, 3.0);
     let contact = Contact::new(&Flat, &*body).unwrap().kappa(FRAC_PI_2);
     for load in [0.01, 0.3, 1.0, 3.0] {
         let d = f64::sqrt(4.0 * load / PI);
@@ -252,7 +237,7 @@ fn calls_for_a_contact_far_narrower_than_bodies_of_unlike_stiffness() {
                 let contact = Contact::new(&Flat, &body).unwrap().single_interval(true);
                 calls.store(0, Ordering::Relaxed);
                 let solution = contact.solve(Control::Load(l * l * first)).unwrap();
-                let off = off(&solution, Interval { left: x0 - l, right: x0 + l });
+                let off = limits_off(solution.hull(), Interval { left: x0 - l, right: x0 + l });
                 assert!(off < 1e-10, "{bend} {x0} {l} {z}: off by {off:e}");
                 let calls = calls.load(Ordering::Relaxed);
                 assert!(calls <= 44, "{bend} {x0} {l} {z}: {calls} calls");
@@ -278,7 +263,7 @@ fn calls_for_a_contact_beside_a_narrow_step() {
         let (l, w, t0) = (1e-6, 0.1, 1.2);
         let steep = k * f64::exp(q * x0);
         let rise = move |t: f64| c * ((t - t0) / w).tanh() + steep * (q * l * t).exp_m1();
-        let [mean, first] = edge_integrals(rise);
+        let [mean, first] = edge_integrals(UNIT, rise);
         let at = move |x: f64| {
             let t = (x - x0) / l;
             let u = ((t - t0) / w).abs();
@@ -288,7 +273,7 @@ fn calls_for_a_contact_beside_a_narrow_step() {
         let body = Counting(graph(-4.8, 5.0, at), &calls);
         let contact = Contact::new(&Flat, &body).unwrap().single_interval(single);
         let solution = contact.solve(Control::Load(l * first)).unwrap();
-        let off = off(&solution, Interval { left: x0 - l, right: x0 + l });
+        let off = limits_off(solution.hull(), Interval { left: x0 - l, right: x0 + l });
         assert!(off < 1e-9, "{c} {k} {x0}: off by {off:e}");
     }
     let calls = calls.load(Ordering::Relaxed);
@@ -324,7 +309,8 @@ fn a_limit_just_beyond_a_jump_of_the_slope() {
                 refused += 1;
                 continue;
             };
-            let off = off(&solution, Interval { left: -half_width, right: half_width });
+            let off =
+                limits_off(solution.hull(), Interval { left: -half_width, right: half_width });
             let estimate = solution.limits_error().unwrap();
             assert!(off <= estimate + 1e-15, "{jump} {is_on_both} {beyond}: {off} {estimate}");
         }

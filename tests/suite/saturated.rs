@@ -1,10 +1,10 @@
 //! Curves that turn back, and curves that stand still, far from the contact.
 #![allow(missing_docs)]
 
-use crate::common::{NanSafe, circle};
+use crate::common::{circle, limits_off};
 use linecontact::profile::Ellipse;
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Flat, InputError, ProfileError,
+    Contact, ContactError, Control, Curve, CurvePoint, Flat, InputError, Interval, ProfileError,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -47,7 +47,7 @@ fn a_closed_curve_turns_back_at_once() {
 /// Degrees taken for radians: the error names the turns nearest to the contact.
 #[test]
 fn the_first_turn_is_named() {
-    for end in [80.0, 5.0, 3.125, 45.0, 360.0] {
+    for end in [80.0, 5.0, 45.0, 360.0] {
         let body = circle(-end, end, 1.0);
         let error = Contact::new(&Flat, &body)
             .and_then(|contact| contact.solve(Control::Load(0.01)).map(|_| ()))
@@ -67,7 +67,7 @@ fn the_first_turn_is_named() {
 #[test]
 fn where_x_has_saturated_is_no_matter() {
     type Way = (&'static str, f64, fn(f64) -> [f64; 2]);
-    let ways: [Way; 7] = [
+    let ways: [Way; 9] = [
         ("tanh 10k", 1.0, |k| [(10.0 * k).tanh(), 10.0 / (10.0 * k).cosh().powi(2)]),
         ("tanh 20k", 1.0, |k| [(20.0 * k).tanh(), 20.0 / (20.0 * k).cosh().powi(2)]),
         ("tanh 20k, rounded", 1.0, |k| {
@@ -81,9 +81,16 @@ fn where_x_has_saturated_is_no_matter() {
             let e = (-k).exp();
             [1.0 / (1.0 + e) - 0.5, e / (1.0 + e).powi(2)]
         }),
+        ("logistic about zero", 100.0, |k| {
+            let e = (-k.abs()).exp();
+            [k.signum() * (0.5 - e / (1.0 + e)), e / (1.0 + e).powi(2)]
+        }),
+        ("tanh 30k, rounded", 1.0, |k| {
+            [(30.0 * k).tanh(), 30.0 * (1.0 - (30.0 * k).tanh().powi(2))]
+        }),
         ("falling", 1.0, |k| [-(400.0 * k).tanh(), -400.0 / (400.0 * k).cosh().powi(2)]),
     ];
-    let mut faults = Vec::new();
+    let (mut faults, on) = (Vec::new(), Interval { left: -0.1, right: 0.1 });
     for (name, end, way) in ways {
         let body = Curve::new([-end, end], move |k: f64| {
             let [x, dx] = way(k);
@@ -93,7 +100,7 @@ fn where_x_has_saturated_is_no_matter() {
         for load in [Control::Load(0.005), Control::HalfWidth(0.1), Control::PeakPressure(0.1 / PI)]
         {
             match contact.solve(load) {
-                Ok(solution) if (solution.a() / 0.1 - 1.0).abs() < 1e-10 => {
+                Ok(solution) if limits_off(solution.hull(), on) < 1e-12 => {
                     if let Err(error) = solution.certify() {
                         faults.push(format!("{name} {load:?}: certify: {error}"));
                     }
@@ -103,39 +110,4 @@ fn where_x_has_saturated_is_no_matter() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
-}
-
-/// A saturated X far from the contact has no slope there, and needs none.
-#[test]
-fn a_parameter_that_saturates() {
-    type Curves = (&'static str, f64, fn(f64) -> [f64; 2]);
-    let curves: [Curves; 4] = [
-        ("tanh(400 k)", 1.0, |k| {
-            let t = (400.0 * k).tanh();
-            [t, 400.0 * (1.0 - t * t)]
-        }),
-        ("tanh(20 k)", 1.0, |k| {
-            let t = (20.0 * k).tanh();
-            [t, 20.0 - 20.0 * t * t]
-        }),
-        ("logistic", 100.0, |k| {
-            let e = (-k.abs()).exp();
-            [k.signum() * (0.5 - e / (1.0 + e)), e / (1.0 + e).powi(2)]
-        }),
-        ("tanh(30 k)", 1.0, |k| {
-            let t = (30.0 * k).tanh();
-            [t, 30.0 * (1.0 - t * t)]
-        }),
-    ];
-    for (name, reach, at) in curves {
-        let body = Curve::new([-reach, reach], move |k: f64| {
-            let [x, dx] = at(k);
-            CurvePoint { x, y: x * x / 2.0, dx, dy: x * dx }
-        });
-        let contact = Contact::new(&Flat, &body).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let solution = contact.solve(Control::Load(0.02));
-        let solution = solution.unwrap_or_else(|error| panic!("{name}: {error}"));
-        let off = (solution.a() - 0.2).abs().nan_max((solution.b() - 0.2).abs()) / 0.2;
-        assert!(off < 1e-12, "{name}: {off:e}");
-    }
 }

@@ -3,7 +3,7 @@
 #![allow(missing_docs)]
 
 use crate::common::NanSafe;
-use crate::common::{Profile, graph, several};
+use crate::common::{Profile, difference, graph, join, several};
 use crate::forms::KAPPA;
 
 use linecontact::reference::{ClosedForm, Hertz, PolynomialMap, Quartic, Wedge, body};
@@ -14,11 +14,11 @@ use linecontact::{
 use std::f64::consts::PI;
 
 /// Body on a flat, E* = 1.
-struct Scene {
-    name: &'static str,
-    body: Profile,
+pub struct Scene {
+    pub name: &'static str,
+    pub body: Profile,
     edges: [Edge<f64>; 2],
-    load: f64,
+    pub load: f64,
 }
 
 impl Scene {
@@ -27,7 +27,7 @@ impl Scene {
         Contact::new(&Flat, &*self.body).unwrap().contact_modulus(1.0).edges(left, right)
     }
 
-    fn solve(&self, load: f64) -> Solution<'_, f64> {
+    pub fn solve(&self, load: f64) -> Solution<'_, f64> {
         self.contact().solve(Control::Load(load)).unwrap()
     }
 }
@@ -39,7 +39,23 @@ fn polynomial<const N: usize>(from: f64, to: f64, coefficients: [f64; N]) -> Pro
     })
 }
 
-/// Returns the scenes of `tests/data/several`.
+/// Returns the scenes of `tests/data/several`, those with closed forms among them.
+pub fn all_scenes() -> Vec<Scene> {
+    let free = |name, body, load| Scene { name, body, edges: [Edge::Free; 2], load };
+    let fifth = [102.4, 0.0, -256.0, 0.0, 224.0, 0.0, -80.0, 0.0, 10.0, 0.0, 0.0];
+    // |T₄|/40, cut at the zeros of the polynomial.
+    let [outer, inner] = [0.9238795325112867, 0.3826834323650898];
+    let cuts = [-1.3, -outer, -inner, inner, outer, 1.3];
+    let fourth = cuts.windows(2).zip([1.0, -1.0, 1.0, -1.0, 1.0]).map(|(ends, sign)| {
+        polynomial(ends[0], ends[1], [0.2, 0.0, -0.2, 0.0, 0.025].map(|a| sign * a))
+    });
+    let mut all = scenes();
+    all.push(free("map_T4_wedge", join(fourth.collect()), 0.03));
+    all.push(free("map_T5_hertz", polynomial(-1.3, 1.3, fifth), 0.05));
+    all
+}
+
+/// Returns the scenes of `tests/data/several` without closed forms of maps.
 fn scenes() -> Vec<Scene> {
     let free = |name, body, load| Scene { name, body, edges: [Edge::Free; 2], load };
     let quartic = || polynomial(-2.5, 2.5, [1.0, 0.0, -2.0, 0.0, 0.0]);
@@ -276,12 +292,6 @@ fn each_contact_of_a_map_bears_its_share() {
             assert_eq!(region.peak, None);
         }
     }
-}
-
-/// Returns central differences of solves, with Richardson extrapolation.
-fn difference(of: impl Fn(f64) -> f64, at: f64) -> f64 {
-    let central = |h: f64| (of(at * (1.0 + h)) - of(at * (1.0 - h))) / (2.0 * at * h);
-    (4.0 * central(2e-4) - central(4e-4)) / 3.0
 }
 
 #[test]

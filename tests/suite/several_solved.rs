@@ -4,8 +4,11 @@
 
 use crate::boundary_elements::{height, solve};
 use crate::common::NanSafe;
-use crate::common::{Profile, Shares, graph, intervals, on_flat, several};
+use crate::common::{
+    Profile, Shares, graph, intervals, limits_off, on_flat, quartic, several, worst,
+};
 use crate::forms::KAPPA;
+use crate::several_quantities::all_scenes;
 
 use linecontact::profile::{Fit, Parabola, Spline, rounded_punch};
 use linecontact::reference::{
@@ -20,7 +23,7 @@ use std::f64::consts::PI;
 const COUNTS: [usize; 5] = [2, 3, 5, 8, 16];
 
 /// Returns forms with N contacts, and the reach of their bodies.
-fn forms<T: Real>() -> Vec<(String, Box<dyn ClosedForm<T>>, T)> {
+pub fn forms<T: Real>() -> Vec<(String, Box<dyn ClosedForm<T>>, T)> {
     let n = T::of;
     let mut forms: Vec<(String, Box<dyn ClosedForm<T>>, T)> = Vec::new();
     for count in COUNTS {
@@ -70,7 +73,6 @@ fn errors<T: Real>(name: &str, form: &dyn ClosedForm<T>, solution: &Solution<T>)
 }
 
 #[test]
-
 fn the_solver_agrees_with_closed_forms() {
     for (name, form, reach) in forms::<f64>() {
         let body = body(&*form, -reach, reach).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -86,7 +88,6 @@ fn the_solver_agrees_with_closed_forms() {
 }
 
 #[test]
-
 fn in_single_precision_too() {
     for (name, form, reach) in forms::<f32>() {
         // Many narrow contacts leave few digits of x in each.
@@ -106,10 +107,9 @@ fn in_single_precision_too() {
 
 /// `x⁴ - 2x²` up and down through F = π, cold and warm.
 #[test]
-
 fn two_contacts_merge_and_part() {
     let kappa = PI / 2.0;
-    let quartic = graph(-4.0, 4.0, |x| [x.powi(4) - 2.0 * x * x, 4.0 * x.powi(3) - 4.0 * x]);
+    let quartic = quartic(-4.0, 4.0);
     let contact = Contact::new(&Flat, &*quartic).unwrap().kappa(kappa);
     let mut solver = Solver::new();
     let mut loads: Vec<f64> = (0..40).map(|i| PI * 0.02 * 1.2f64.powi(i)).collect();
@@ -207,30 +207,23 @@ fn limits_only_move_outwards() {
     }
 }
 
-/// An independently computed solution: `tests/data/several`.
+/// Independently computed solutions: `tests/data/several`.
 #[test]
-fn contacts_without_a_closed_form() {
-    let want = several("rough_parabola");
-    let body = graph(-2.0, 2.0, |x| {
-        let waves = [[0.01, 9.0, 0.4], [-0.006, 17.3, 1.9], [0.003, 31.0, 4.0]];
-        let mut sum = [x * x / 2.0, x];
-        for [a, k, phase] in waves {
-            let (sin, cos) = f64::sin_cos(k * x + phase);
-            sum = [sum[0] + a * cos, sum[1] - a * k * sin];
-        }
-        sum
-    });
-    let contact = Contact::new(&Flat, &*body).unwrap().kappa(PI / 2.0);
-    let solution = contact.solve(Control::Load(0.02)).unwrap();
-    let got = intervals(&solution);
-    assert_eq!(got.len(), want.contacts.len());
-    for (got, want) in got.iter().zip(&want.contacts) {
-        let off = (got.left - want.left).abs().nan_max((got.right - want.right).abs());
-        assert!(off < 1e-10 * (want.right - want.left), "{got:?}, {want:?}");
-    }
-    let pressure = solution.pressure().unwrap();
-    for [x, exact] in want.points {
-        assert!((pressure.at(x).unwrap() - exact).abs() < 1e-10, "P({x})");
+fn contacts_of_the_files() {
+    for scene in all_scenes() {
+        let (name, want) = (scene.name, several(scene.name));
+        let solution = scene.solve(scene.load);
+        let got = intervals(&solution);
+        assert_eq!(got.len(), want.contacts.len(), "{name}");
+        let off = got.iter().zip(&want.contacts).map(|(&got, &want)| limits_off(got, want));
+        let off = worst(off);
+        let pressure = solution.pressure().unwrap();
+        let largest = want.points.iter().fold(0.0f64, |most, [_, p]| most.max(*p));
+        let pressures =
+            want.points.iter().map(|&[x, p]| (pressure.at(x).unwrap() - p).abs() / largest);
+        let of_peak = worst(pressures);
+        println!("{name:24} limits {off:.1e}, P {of_peak:.1e}");
+        assert!(off < 1e-12 && of_peak < 2e-11, "{name}: {off:e} {of_peak:e}");
     }
 }
 
@@ -255,7 +248,7 @@ fn heights_that_do_not_go_with_the_slopes() {
 /// contacts without adhesion are not.
 #[test]
 fn one_adhesive_edge_is_not_forgotten_between_two_bumps() {
-    let body = graph(-2.5, 2.5, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
+    let body = quartic(-2.5, 2.5);
     let contact = Contact::new(&Flat, &*body).unwrap();
     for edges in [[Edge::Adhesive(1e-3), Edge::Free], [Edge::Free, Edge::Adhesive(1e-3)]] {
         let contact = contact.clone().edges(edges[0], edges[1]);
@@ -332,15 +325,10 @@ fn a_superellipse_in_a_groove() {
 
 /// Returns measured points of a roller of radius 20 with a wave, and noise of 0.05 µm.
 fn measured(wave: f64) -> Vec<[f64; 2]> {
-    let mut state = 1u64;
-    let mut uniform = || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    };
+    let mut shares = Shares(1);
     let point = |i: i32| {
         let x = 0.005 * f64::from(i);
-        let normal = (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
-        let y = x * x / 40.0 + wave * (2.0 * PI / 0.7 * x + 1.0).cos() + 0.05e-3 * normal;
+        let y = x * x / 40.0 + wave * (2.0 * PI / 0.7 * x + 1.0).cos() + 0.05e-3 * shares.normal();
         [x, y]
     };
     (-600..=600).map(point).collect()

@@ -1,7 +1,7 @@
 //! The built-in shapes, and their placement.
 #![allow(missing_docs, clippy::excessive_precision)] // Values are given to 20 digits.
 
-use crate::common::NanSafe;
+use crate::common::{NanSafe, Profile};
 use approx::assert_relative_eq;
 use linecontact::profile::{Crowning, Ellipse, Involute, Line, Parabola, Placed, Placement};
 use linecontact::profile::{rounded_punch, wedge};
@@ -11,8 +11,6 @@ use linecontact::{
     ProfileError,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
-
-type Body = Box<dyn ParametricProfile<f64>>;
 
 /// Returns relative errors of a solve on a flat: of the two limits, against the half-width, and the
 /// largest error of the pressure on a grid.
@@ -32,9 +30,9 @@ fn against(upper: &dyn ParametricProfile<f64>, form: &dyn ClosedForm<f64>) -> [f
 #[test]
 fn points_and_derivatives_keep_their_digits() {
     let tiny = 0.5f64.powi(20);
-    let ellipse: Body = Box::new(Ellipse::new(2.0, 0.75, [-FRAC_PI_2, FRAC_PI_2]).unwrap());
-    let involute: Body = Box::new(Involute::new(37.5, 0.375, [0.0, 1.5]).unwrap());
-    let crowning: Body = Box::new(Crowning::new(0.0078125, 5.0, [-5.0, 5.0]).unwrap());
+    let ellipse: Profile = Box::new(Ellipse::new(2.0, 0.75, [-FRAC_PI_2, FRAC_PI_2]).unwrap());
+    let involute: Profile = Box::new(Involute::new(37.5, 0.375, [0.0, 1.5]).unwrap());
+    let crowning: Profile = Box::new(Crowning::new(0.0078125, 5.0, [-5.0, 5.0]).unwrap());
     let ellipse_points = [
         (
             tiny,

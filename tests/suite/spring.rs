@@ -1,7 +1,7 @@
 //! Tables of load against approach, compared with solves between their points.
 #![allow(missing_docs)]
 
-use crate::common::{Profile, graph, worst};
+use crate::common::{Profile, quartic, worst};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::{
     Contact, ContactError, Control, Edge, EvaluationError, Flat, InputError, Material, PlaneState,
@@ -40,7 +40,7 @@ fn errors(contact: &Contact<f64>, table: &SpringTable<f64>, loads: [f64; 2]) -> 
 #[test]
 fn between_its_points_a_table_is_as_good_as_it_says() {
     let circle: Profile = Box::new(Ellipse::circle(1.0, [-1.5, 1.5]).unwrap());
-    let quartic = graph(-2.5, 2.5, |x| [x * x * (x * x - 2.0), 4.0 * x * (x * x - 1.0)]);
+    let quartic = quartic(-2.5, 2.5);
     let free = [Edge::Free; 2];
     let until = [Edge::FreeUntil(-0.1), Edge::FreeUntil(0.2)];
     let punch = [Edge::Fixed(-0.1), Edge::Fixed(0.1)];

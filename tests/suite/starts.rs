@@ -160,23 +160,35 @@ fn the_contact_found_grows_with_its_load() {
     assert!(refused <= 32 && solved + refused == 512, "{solved} {refused}");
 }
 
+/// At both ends of the start the bodies close outward, but the lowest place is inside: with
+/// g = u - c u³ at u = 0. F = L²/2 - 3 c L⁴/8.
 #[test]
 fn first_contact_between_the_ends_of_the_start() {
-    // At both ends of the start the bodies close outward: the lowest place is inside. The lowest
-    // place of g = u - 4 u³ is at 0.
-    let place = 0.2;
-    let body = graph(place - 0.95, place + 0.95, move |x| {
-        let u = x - place;
-        [u * u / 2.0 - u.powi(4), u - 4.0 * u.powi(3)]
-    });
     let brent = Brent::default();
-    let contact = Contact::new(&Flat, &*body).unwrap().limit_search(&brent).single_interval(true);
-    for (left, right) in [(-0.6, 0.6), (-0.55, 0.7), (-0.8, 0.55), (-0.51, 0.9)] {
-        let contact = contact.clone().start(Interval { left: place + left, right: place + right });
-        let solution = contact.solve(Control::Load(5e-3)).unwrap();
-        let l = solution.hull().half_width();
-        assert!((solution.hull().centre() - place).abs() < 1e-13, "{solution:?}");
-        assert!((l * l * (1.0 - 3.0 * l * l) / 0.01 - 1.0).abs() < 1e-12, "{l}");
+    // From starts far beyond the place where the gap closes again, only a width leads back.
+    for (c, place, half_widths, starts, is_by_load) in [
+        (4.0, 0.2, [0.05, 0.1], [[-0.6, 0.6], [-0.55, 0.7], [-0.8, 0.55], [-0.51, 0.9]], true),
+        (100.0, 0.0, [0.005, 0.02], [[-0.31, 0.3], [-0.2, 0.9], [-0.3, 0.31], [-0.9, 0.2]], false),
+    ] {
+        let body = graph(place - 0.95, place + 0.95, move |x| {
+            let u = x - place;
+            [u * u / 2.0 - c * u.powi(4) / 4.0, u - c * u.powi(3)]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap().limit_search(&brent);
+        let contact = contact.single_interval(true);
+        for [left, right] in starts {
+            let start = Interval { left: place + left, right: place + right };
+            for l in half_widths {
+                let load = l * l / 2.0 - 0.375 * c * f64::powi(l, 4);
+                let by_load = is_by_load.then_some(Control::Load(load));
+                for control in [Control::HalfWidth(l)].into_iter().chain(by_load) {
+                    let solution = contact.clone().start(start).solve(control).unwrap();
+                    assert!((solution.hull().centre() - place).abs() < 1e-13, "{solution:?}");
+                    assert_close(solution.hull().half_width(), l, 1e-13);
+                    assert_close(solution.load(), load, 1e-13);
+                }
+            }
+        }
     }
 }
 
@@ -232,24 +244,6 @@ fn a_gap_that_is_not_convex() {
     }
     for load in [0.0107, 0.011, 0.02] {
         assert!(contact.solve(Control::Load(load)).is_err(), "{load}");
-    }
-}
-
-#[test]
-fn a_point_of_first_contact_between_the_ends_of_the_start() {
-    // g = x - 100 x³ falls beyond x = ±0.058: at the start it has the signs of a gap that closes.
-    // F = L²/2 - 75 L⁴/2.
-    let body = graph(-1.0, 1.0, |x| [x * x / 2.0 - 25.0 * x.powi(4), x - 100.0 * x.powi(3)]);
-    let brent = Brent::default();
-    let contact = Contact::new(&Flat, &*body).unwrap().limit_search(&brent).single_interval(true);
-    for l in [0.005, 0.02] {
-        let load = l * l / 2.0 - 37.5 * f64::powi(l, 4);
-        for start in [Interval { left: -0.31, right: 0.3 }, Interval { left: -0.2, right: 0.9 }] {
-            let solution = contact.clone().start(start);
-            let solution = solution.solve(Control::HalfWidth(l)).unwrap();
-            assert_close(solution.load(), load, 1e-13);
-            assert_close(solution.a(), l, 1e-13);
-        }
     }
 }
 

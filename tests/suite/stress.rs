@@ -2,21 +2,20 @@
 #![allow(missing_docs)]
 
 use crate::common::{NanSafe, worst};
+use crate::forms::KAPPA;
 use linecontact::profile::{Parabola, rounded_punch, wedge};
 use linecontact::reference::{
     Biquadratic, ClosedForm, FlatPunch, Hertz, UnequalRadii, Wedge, body,
 };
 use linecontact::stress::{Stress, Subsurface};
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Edge, EvaluationError, Flat, InputError,
-    Midpoint, SolveError,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, EvaluationError, Flat, Midpoint,
+    SolveError,
 };
 use linecontact::{ParametricProfile, Piecewise};
 use std::f64::consts::PI;
 use std::ops::{Add, ControlFlow, Div, Mul, Sub};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
-
-const KAPPA: f64 = 1.7;
 
 /// Complex number with the operations that the potentials need.
 #[derive(Clone, Copy, Debug)]
@@ -234,11 +233,6 @@ fn a_tilted_flat_punch() {
             [w * PI, dw * PI]
         });
     }
-    let refused = solution.subsurface().unwrap().max_shear();
-    assert!(
-        matches!(refused, Err(ContactError::Evaluation(EvaluationError::Singular { .. }))),
-        "{refused:?}"
-    );
 }
 
 /// The forces through a cut at any depth equal those on the surface.
@@ -339,8 +333,10 @@ fn on_the_surface_of_hertz() {
     let largest = solution.subsurface().unwrap().max_von_mises(0.0).unwrap();
     assert!((largest.value / peak - 1.0).abs() < 1e-15 && largest.depth == 0.0, "{largest:?}");
     // With friction this strong the shear is μ p₀ all over the contact, and nowhere larger.
-    let sliding = solution.subsurface().unwrap().friction(0.9).unwrap().max_shear().unwrap();
-    assert!((sliding.value / (0.9 * peak) - 1.0).abs() < 1e-14, "{sliding:?}");
+    for mu in [0.6, 0.9] {
+        let sliding = solution.subsurface().unwrap().friction(mu).unwrap().max_shear().unwrap();
+        assert!((sliding.value / (mu * peak) - 1.0).abs() < 1e-14, "{sliding:?}");
+    }
 }
 
 /// At a tip the pressure is infinite, but not the shear without friction: as the depth goes to zero
@@ -492,43 +488,15 @@ fn invariants() {
     let squares: f64 = [x - y, y - z, z - x].iter().map(|d| d * d).sum();
     let mises = (squares / 2.0 + 3.0 * t * t).sqrt();
     assert!((stress.von_mises(0.3).unwrap() / mises - 1.0).abs() < 1e-15);
-    for ratio in [-0.1, 0.51, f64::NAN] {
-        assert!(matches!(
-            stress.von_mises(ratio),
-            Err(ContactError::Input(InputError::InvalidPoissonRatio { .. }))
-        ));
-        assert!(matches!(
-            stress.sigma_z(ratio),
-            Err(ContactError::Input(InputError::InvalidPoissonRatio { .. }))
-        ));
-    }
 }
 
 #[test]
-fn refusals() {
+fn no_depth_is_too_shallow_for_its_place() {
     let form = Hertz::new(1.0, 0.1).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap();
     let solution = contact.solve(Control::HalfWidth(0.1)).unwrap();
     let field = solution.subsurface().unwrap();
-    for (x, y) in [(0.0, -1e-9), (f64::NAN, 0.0), (0.0, f64::NAN), (f64::INFINITY, 1.0)] {
-        let refused = field.at(x, y);
-        assert!(
-            matches!(refused, Err(ContactError::Evaluation(EvaluationError::AboveSurface { .. }))),
-            "{refused:?}"
-        );
-    }
-    for mu in [f64::NAN, f64::INFINITY] {
-        let refused = solution.subsurface().unwrap().friction(mu);
-        assert!(
-            matches!(refused, Err(ContactError::Input(InputError::InvalidFriction { .. }))),
-            "{refused:?}"
-        );
-    }
-    assert!(matches!(
-        field.max_von_mises(0.6),
-        Err(ContactError::Input(InputError::InvalidPoissonRatio { .. }))
-    ));
     // Far away nothing overflows.
     assert!(field.at(1e200, 1e-200).unwrap().max_shear() >= 0.0);
     assert!(field.at(0.0, 1e-200).unwrap().max_shear() < 1e-12);
@@ -599,24 +567,6 @@ fn beside_a_breakpoint_anywhere() {
         println!("breakpoint at {shift}: {worst:.2} of what rounding allows");
         assert!(worst < 1.0, "{shift}: {worst}");
     }
-}
-
-/// On the surface of Hertz's contact the largest shear is μ p₀ everywhere.
-#[test]
-fn strong_friction_brings_the_largest_shear_to_the_surface() {
-    let form = Hertz::new(1.0, 0.1).unwrap();
-    let body = body(&form, -1.0, 1.0).unwrap();
-    let contact = Contact::new(&Flat, &body).unwrap();
-    let solution = contact.solve(Control::HalfWidth(0.1)).unwrap();
-    let peak = solution.peak().unwrap().pressure;
-    let field = solution.subsurface().unwrap().friction(0.6).unwrap();
-    for x in [-0.09f64, -0.05, 0.0, 0.03, 0.08] {
-        let shear: f64 = field.at(x, 1e-14).unwrap().max_shear();
-        assert!((shear / peak - 0.6).abs() < 1e-11, "{x}: {shear}");
-    }
-    let largest = field.max_shear().unwrap();
-    println!("{} at {}, {}", largest.value / peak, largest.x / 0.1, largest.depth / 0.1);
-    assert!(largest.value > 0.5999 * peak && largest.value < 0.61 * peak);
 }
 
 #[test]

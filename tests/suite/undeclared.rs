@@ -3,18 +3,17 @@
 #![allow(missing_docs)]
 
 use crate::common;
-use crate::common::NanSafe;
+use crate::integrals::edge_integrals;
 
 use approx::assert_relative_eq;
-use common::{assert_close, graph, join, on_flat, reference};
+use common::{assert_close, graph, join, limits_off, on_flat, reference};
 use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Flat, Interval, Panels};
 use linecontact::{ParametricProfile, Piecewise, Solution};
 use std::f64::consts::PI;
 
 pub fn assert_solved(solution: &Solution<f64>, want: Interval<f64>, tolerance: f64, most: usize) {
     let (got, cost) = (solution.hull(), solution.cost());
-    let error = (got.left - want.left).abs().nan_max((got.right - want.right).abs());
-    let (error, estimate) = (error / want.half_width(), solution.limits_error().unwrap());
+    let (error, estimate) = (limits_off(got, want), solution.limits_error().unwrap());
     println!("error {error:.1e}, said to be {estimate:.1e}, {cost:?}");
     assert!(error <= tolerance, "{got:?} is not {want:?}");
     assert!(cost.evaluations <= most, "{cost:?}");
@@ -104,14 +103,7 @@ fn an_end_like_a_square_root() {
     let contact = on_flat(graph(-0.6, e, move |x| [primitive(x), slope(x)]));
     // The contact whose right limit is 0.3; its left limit by bisection on the mean slope, by
     // Gauss's rule in θ, in which the slope is periodic and, short of e, analytic.
-    const N: usize = 4000;
-    let moments = |on: Interval<f64>| {
-        let nodes = (0..N).map(|i| PI * (i as f64 + 0.5) / N as f64);
-        nodes.fold([0.0, 0.0], |[mean, first], angle| {
-            let g = slope(on.centre() + on.half_width() * angle.cos());
-            [mean + g / N as f64, first + g * angle.cos() / N as f64]
-        })
-    };
+    let moments = |on: Interval<f64>| edge_integrals(on, slope);
     let (mut lo, mut hi) = (-0.4, -0.2);
     for _ in 0..60 {
         let left = 0.5 * (lo + hi);
@@ -171,8 +163,7 @@ fn a_kink_at_the_seam_to_what_is_sampled_later() {
                 (solution.hull(), solution.limits_error().unwrap())
             };
             let ((got, error), (want, _)) = (solve(&whole), solve(&parts));
-            let off = (got.left - want.left).abs().nan_max((got.right - want.right).abs());
-            let off = off / want.half_width();
+            let off = limits_off(got, want);
             assert!(off <= error + 1e-14, "{steep} {at} {start}: off {off:e}, said {error:e}");
         }
     }

@@ -4,7 +4,8 @@
 #![allow(missing_docs)]
 
 use crate::boundary_elements;
-use crate::common::{NanSafe, Shares, graph, join, on_flat};
+use crate::common::{NanSafe, Shares, graph, join, limits_off, on_flat};
+use crate::integrals::edge_integrals;
 
 use linecontact::search::Brent;
 use linecontact::{
@@ -60,8 +61,7 @@ impl Kinked {
 
     /// Returns the error of limits, as a share of the half-width.
     fn off(&self, found: Interval<f64>) -> f64 {
-        let Self { on, .. } = self;
-        (found.left - on.left).abs().nan_max((found.right - on.right).abs()) / on.half_width()
+        limits_off(found, self.on)
     }
 
     /// Returns the pressure at a share of the half-width from the middle.
@@ -138,16 +138,10 @@ fn a_root_behind_what_is_smooth() {
                         + 0.27828 * q.powf(1.5) * (x - at_root).signum(),
                 ]
             };
-            // The root is beyond the contact: the midpoint rule in θ is good to rounding.
-            const N: usize = 2000;
-            let mut sums = [0.0; 2];
-            for i in 0..N {
-                let cos = (PI * (i as f64 + 0.5) / N as f64).cos();
-                let slope = smooth(l * cos)[1] / N as f64;
-                sums = [sums[0] + slope, sums[1] + slope * cos];
-            }
             let share = 1.0 - at_ramp / l;
             let on = Interval { left: -l, right: l };
+            // The root is beyond the contact.
+            let sums = edge_integrals(on, |x| smooth(x)[1]);
             let kink = Kinked { on, curvature: 0.0, share, jump: 0.0, bend: ramp, mirrored: false };
             let [m0, m1] = kink.moments();
             let [tilt, m1] = [sums[0] + m0, sums[1] + m1];

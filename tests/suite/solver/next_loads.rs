@@ -1,8 +1,8 @@
 //! The next load with a solver: no new samples of the bodies.
 #![allow(missing_docs)]
 
-use crate::common::graph;
 use crate::common::speed_scenes::{SCENES, Scene, scene};
+use crate::common::{graph, quartic};
 use linecontact::reference::{ClosedForm, Hertz, PolynomialMap};
 use linecontact::{Contact, Control, Flat, ParametricProfile, Solution, Solver};
 
@@ -80,7 +80,7 @@ fn down_and_up_again(name: &str, body: &dyn ParametricProfile<f64>, largest: f64
 #[test]
 #[ignore = "an overlap that seems to be there is looked at on the curves themselves"]
 fn a_merge_and_a_split_take_no_heights_as_yet() {
-    let body = graph(-2.0, 2.0, |k| [k * k * (k * k - 2.0), 4.0 * k * (k * k - 1.0)]);
+    let body = quartic(-2.0, 2.0);
     down_and_up_again("quartic", &body, 3.0, 0.1);
 }
 
