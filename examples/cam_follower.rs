@@ -181,7 +181,7 @@ fn draw(rows: &[[f64; 3]]) -> Result<String, Box<dyn Error>> {
     let turn: Vec<_> = rows.iter().take_while(|row| row[0] <= TAU).step_by(4).collect();
     let over = |i: usize| -> Points { turn.iter().map(|row| (row[0] / TAU, row[i])).collect() };
     let axis = |label, y, range| ((label, [0.0, 1.0]), (y, range));
-    let (x, y) = axis("", "x / mm", [-4.0, 7.0]);
+    let (x, y) = axis("", "x / mm", [-4.0, 9.0]);
     let known =
         over(1).into_iter().map(|(turn, _)| (turn, Cam::support(turn * TAU)[1])).step_by(12);
     let place = Panel::new("Where they touch", x, y)

@@ -65,9 +65,10 @@ impl Mesh {
 
 type Flank = Placed<f64, Involute<f64>>;
 
-/// Half-width and peak pressure, from the solver and from Hertz.
+/// Load, and half-width and peak pressure from the solver and from Hertz.
 struct Row {
     s: f64,
+    load: f64,
     solved: [f64; 2],
     hertz: [f64; 2],
 }
@@ -81,12 +82,13 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
         let s = mesh.path[0] + (mesh.path[1] - mesh.path[0]) * f64::from(step) / f64::from(STEPS);
         let [pinion, wheel] = mesh.flanks(s)?;
         let contact = Contact::new(&pinion, &wheel)?.contact_modulus(MODULUS);
-        let solution = solver.solve(&contact, Control::Load(mesh.load(s)))?;
+        let load = mesh.load(s);
+        let solution = solver.solve(&contact, Control::Load(load))?;
         let solved = [solution.hull().half_width(), solution.peak()?.pressure];
 
         let radius = s * (mesh.line - s) / mesh.line; // 1/R = 1/s + 1/(line - s)
-        let half_width = (4.0 * mesh.load(s) * radius / (PI * MODULUS)).sqrt();
-        let hertz = [half_width, 2.0 * mesh.load(s) / (PI * half_width)];
+        let half_width = (4.0 * load * radius / (PI * MODULUS)).sqrt();
+        let hertz = [half_width, 2.0 * load / (PI * half_width)];
         // Relative change of the radii over the half-width, which Hertz leaves out. (The radius of
         // an involute, r t, changes by dX/t.)
         let change = half_width * (mesh.base[0] / (s * s) + mesh.base[1] / (mesh.line - s).powi(2));
@@ -96,7 +98,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
             least = least.min(here);
             share = share.max(here / (change * change));
         }
-        rows.push(Row { s: (s - mesh.path[0]) / mesh.pitch, solved, hertz });
+        rows.push(Row { s: (s - mesh.path[0]) / mesh.pitch, load, solved, hertz });
     }
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
     println!("contact ratio {:.4}", last.s);
@@ -125,23 +127,25 @@ fn draw(mesh: &Mesh, rows: &[Row]) -> Result<String, Box<dyn Error>> {
     let heights = [-2.2, 2.2];
     let flanks =
         Panel::new("The flanks at the pitch point", ("x / mm", [-4.0, 4.0]), ("y / mm", heights))
-            .with_equal_scales(480)
+            .with_equal_scales(400)
             .body(pinion, heights[0], BLUE, "")
             .body(wheel, heights[1], RED, "")
             .dots(vec![(0.0, 0.0)], BLACK, "")
             .note(0.0, -1.3, "pinion, 20 teeth", BLUE)
             .note(0.0, 1.4, "wheel, 60 teeth", RED);
     let along = |i: usize, title: &str, label: &str, unit: &str, top: f64| {
-        let points =
-            |value: fn(&Row) -> [f64; 2]| rows.iter().map(move |row| (row.s, value(row)[i]));
         let end = rows[rows.len() - 1].s;
-        Panel::new(title, (label, [0.0, end]), (unit, [0.0, top]))
-            .size(480, 130)
-            .line(points(|row| row.solved).collect(), BLUE, "involutes")
-            .dots(points(|row| row.hertz).step_by(8).collect(), RED, "Hertz")
+        let mut panel = Panel::new(title, (label, [0.0, end]), (unit, [0.0, top])).size(400, 130);
+        // The load jumps: a line for each part.
+        for (j, part) in rows.chunk_by(|one, next| one.load == next.load).enumerate() {
+            let points = part.iter().map(|row| (row.s, row.solved[i])).collect();
+            panel = panel.line(points, BLUE, if j == 0 { "involutes" } else { "" });
+        }
+        let hertz = rows.iter().map(|row| (row.s, row.hertz[i])).step_by(8);
+        panel.dots(hertz.collect(), RED, "Hertz")
     };
-    let width = along(0, "Half-width", "", "half-width / mm", 0.25);
-    let label = "distance along the path of contact / base pitch";
+    let width = along(0, "Half-width", "", "half-width / mm", 0.3);
+    let label = "distance along path of contact / base pitch";
     let peak = along(1, "Peak pressure", label, "peak / MPa", 2000.0);
     drawing::save("gear_mesh", vec![vec![flanks], vec![width, peak]])
 }

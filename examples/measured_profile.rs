@@ -61,11 +61,11 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let error = Spline::through(&dusty).map(|_| ()).expect_err("dust");
     println!("with a speck of dust: {error}");
 
-    let x: Vec<f64> = (1..200).map(|i| on.at_angle(PI * f64::from(i) / 200.0)).collect();
+    let x: Vec<f64> = (0..=200).map(|i| on.at_angle(PI * f64::from(i) / 200.0)).collect();
     let mut pressures = vec![0.0; x.len()];
     pressure.at_many(&x, &mut pressures)?;
     let solved: Points = x.iter().copied().zip(pressures).collect();
-    let known = x.iter().map(|&x| (x, exact.pressure(x, kappa))).step_by(6).collect();
+    let known = x.iter().map(|&x| (x, exact.pressure(x, kappa))).step_by(8).collect();
     // Height of the measured and the smoothed profile above the circle, in micrometres.
     let beyond = |x: f64, y: f64| (x, 1e3 * (y - RADIUS + (RADIUS * RADIUS - x * x).sqrt()));
     let range = [-0.3, 0.3];
@@ -79,7 +79,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let heights = Panel::new(
         "A measured roller: heights beyond the circle",
         ("", range),
-        ("y − y(circle) / µm", [-0.4, 0.6]),
+        ("y − y(circle) / µm", [-0.4, 0.7]),
     )
     .size(520, 170)
     .dots(near, GRAY, "measured")

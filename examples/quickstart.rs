@@ -47,7 +47,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     }
     println!("estimated relative errors: limits {limits_error:.0e}, peak {peak_error:.0e}");
     println!("{} evaluations of the two curves", solution.cost().evaluations);
-    println!("{}", draw([&groove, &roller], &solution)?);
+    println!("{}", draw(&groove, &solution)?);
 
     // The slope of the gap is the difference of two slopes x/sqrt(r² - x²), of the roller and of
     // the groove. So load and peak are differences, too, of E* r (K(m) - E(m)) and E* a K(m)/(π r),
@@ -75,21 +75,18 @@ fn elliptic(modulus: f64) -> (f64, f64) {
 
 /// Draws the bodies, the pressure and the stress below, and returns a line that names the file.
 fn draw(
-    bodies: [&dyn ParametricProfile<f64>; 2],
+    groove: &dyn ParametricProfile<f64>,
     solution: &Solution<f64>,
 ) -> Result<String, Box<dyn Error>> {
-    let [groove, roller] = bodies;
-    let outline = |body: &dyn ParametricProfile<f64>, end: f64| -> Points {
-        (-100..=100).map(|i| body.at(end * f64::from(i) / 100.0)).map(|at| (at.x, at.y)).collect()
-    };
-    let lower = outline(roller, 1.5);
-    let upper = lower.iter().rev().map(|&(x, y)| (x, 2.0 * ROLLER - y));
-    let circle: Points = lower.iter().copied().chain(upper).chain([lower[0]]).collect();
+    let arc = (-100..=100).map(|i| groove.at(0.0032 * f64::from(i))).map(|at| (at.x, at.y));
+    let angles = (0..=200).map(|i| PI * f64::from(i) / 100.0);
+    let circle: Points =
+        angles.map(|angle| (ROLLER * angle.sin(), ROLLER * (1.0 - angle.cos()))).collect();
     let arrow = vec![(0.0, 5.0), (-0.5, 6.4), (0.5, 6.4)];
     let axes = (("x / mm", [-12.0, 12.0]), ("y / mm", [-4.0, 20.5]));
     let whole = Panel::new("A roller in a groove", axes.0, axes.1)
-        .with_equal_scales(400)
-        .body(outline(groove, 0.32), -4.0, BLUE, "")
+        .with_equal_scales(370)
+        .body(arc.collect(), -4.0, BLUE, "")
         .area(circle.clone(), tint(RED, 0.18))
         .line(circle, RED, "")
         .line(vec![(0.0, 10.0), (0.0, 6.0)], BLACK, "")
@@ -103,27 +100,25 @@ fn draw(
     let x = (0..=200).map(|i| on.at_angle(PI * (1.0 - f64::from(i) / 200.0)));
     let points =
         x.map(|x| Ok((x, pressure.at(x)?))).collect::<Result<Points, ContactError<_>>>()?;
+    const WIDTH: i32 = 420;
     let range = [-0.6, 0.6];
     let pressures = Panel::new("Pressure between them", ("", range), ("P / MPa", [0.0, 1400.0]))
-        .size(440, 170)
+        .size(WIDTH, 110)
         .body(points, 0.0, BLUE, "")
         .limit(on.left, "−b")
         .limit(on.right, "a");
 
     let shear = |x, y: f64| Ok::<_, ContactError<f64>>(below.at(x, -y)?.max_shear());
     let depths = [-0.5, 0.0];
-    let shears = Grid::new(range, depths, [72, 30], shear)?;
-    let levels: Vec<f64> = (1..=11).map(|i| 30.0 * f64::from(i)).collect();
+    let shears = Grid::new(range, depths, [120, 50], shear)?;
+    let levels: Vec<f64> = (1..=17).map(|i| 20.0 * f64::from(i)).collect();
     let worst = below.max_shear()?;
     let name = format!("{:.0} MPa", worst.value);
-    let stress = Panel::new(
-        "Largest shear stress below it, in steps of 30 MPa",
-        ("x / mm", range),
-        ("y / mm", depths),
-    )
-    .with_equal_scales(440)
-    .levels(&shears, &levels, RED)
-    .dots(vec![(worst.x, -worst.depth)], BLACK, "")
-    .note(worst.x, -worst.depth - 0.01, &name, BLACK);
-    drawing::save("quickstart", vec![vec![whole], vec![pressures, stress]])
+    let stress = Panel::new("Stress below it", ("x / mm", range), ("y / mm", depths))
+        .with_equal_scales(WIDTH)
+        .levels(&shears, &levels, RED)
+        .dots(vec![(worst.x, -worst.depth)], BLACK, "")
+        .note(worst.x, -worst.depth - 0.01, &name, BLACK);
+    let key = Panel::key("largest shear stress / MPa", WIDTH, &levels, RED);
+    drawing::save("quickstart", vec![vec![whole], vec![pressures, stress, key]])
 }

@@ -13,7 +13,9 @@ mod drawing;
 use drawing::{BLACK, BLUE, Panel, Points, RED, RGBColor, SeriesLabelPosition, mix};
 use linecontact::profile::{Crowning, Ellipse, Placed, Placement};
 use linecontact::reference::{self, ClosedForm, UnequalRadii};
-use linecontact::{Contact, ContactError, Control, Flat, ParametricProfile, Piecewise, Solution};
+use linecontact::{
+    Contact, ContactError, Control, Flat, Interval, ParametricProfile, Piecewise, Solution,
+};
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -27,13 +29,15 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 /// Returns the pressures from edge to edge.
 fn pressures(solution: &Solution<f64>) -> Result<Points, ContactError<f64>> {
     let (on, pressure) = (solution.hull(), solution.pressure()?);
-    let x = (0..=120).map(|i| on.at_angle(PI * (1.0 - f64::from(i) / 120.0)));
+    let x = (0..=400).map(|i| on.at_angle(PI * (1.0 - f64::from(i) / 400.0)));
     x.map(|x| Ok((x, pressure.at(x)?))).collect()
 }
 
 fn outline(body: &dyn ParametricProfile<f64>) -> Points {
     let [from, to] = body.domain();
-    let points = (0..=300).map(|i| body.at(from + (to - from) * f64::from(i) / 300.0));
+    // Close together at the ends, where a relief is steep, but not at them, where it is infinite.
+    let on = Interval { left: from, right: to };
+    let points = (1..300).rev().map(|i| body.at(on.at_angle(PI * f64::from(i) / 300.0)));
     points.map(|at| (at.x, at.y)).collect()
 }
 
@@ -53,12 +57,12 @@ fn roller() -> Result<Vec<Panel>, Box<dyn Error>> {
         ("x / mm", range),
         ("y / µm", [-4.0, 12.0]),
     )
-    .size(440, 180)
+    .size(400, 180)
     .body(vec![(-8.5, 0.0), (8.5, 0.0)], -4.0, BLUE, "")
     .body(relief, 12.0, RED, "");
     let axes = (("x / mm", range), ("P / MPa", [0.0, 300.0]));
     let mut drawn = Panel::new("Pressure under three loads", axes.0, axes.1)
-        .size(440, 200)
+        .size(400, 200)
         .legend(SeriesLabelPosition::UpperMiddle);
     println!("roller with relief: off the closed form by");
     for (i, half_width) in [4.0, 7.0, 7.6].into_iter().enumerate() {
@@ -119,7 +123,7 @@ fn wheel() -> Result<Vec<Panel>, Box<dyn Error>> {
         ("x / mm", [-25.0, 23.0]),
         ("y / mm", heights),
     )
-    .size(440, 180)
+    .size(400, 180)
     .body(outline(&rail), heights[0], BLUE, "")
     .body(outline(&tread), heights[1], RED, "")
     .dots(vec![(0.0, 0.0)], BLACK, "")
@@ -127,7 +131,7 @@ fn wheel() -> Result<Vec<Panel>, Box<dyn Error>> {
     .note(0.0, 4.0, "wheel, radii −500 and 400 mm", RED);
     let axes = (("x / mm", [-3.5, 1.0]), ("P / MPa", [0.0, 600.0]));
     let mut drawn = Panel::new("Pressure under three loads", axes.0, axes.1)
-        .size(440, 200)
+        .size(400, 200)
         .legend(SeriesLabelPosition::UpperLeft);
     let mut last = f64::INFINITY;
     for (i, load) in [1000.0, 100.0, 10.0].into_iter().enumerate() {

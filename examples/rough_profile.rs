@@ -124,7 +124,7 @@ fn measurement() -> Vec<[f64; 2]> {
 fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<String, Box<dyn Error>> {
     let widest = &all[all.len() - 1].contacts[0];
     let range = [widest.left - 0.1, widest.right + 0.1];
-    let axes = (("", range), ("P / MPa", [0.0, 3000.0]));
+    let axes = (("", range), ("P / MPa", [0.0, 3500.0]));
     let mut pressures = Panel::new("Pressure under loads from 1 to 4000 N/mm", axes.0, axes.1)
         .size(560, 280)
         .legend(SeriesLabelPosition::UpperLeft);
@@ -135,8 +135,8 @@ fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<String, Box<dyn Error>> {
             let here: Points =
                 pressed.pressures.iter().filter(|at| on.contains(at.0)).copied().collect();
             let label = if j == 0 { format!("{:.0} N/mm", pressed.load) } else { String::new() };
-            // About one point per pixel, and the last one.
-            let every = (5.0 / (on.right - on.left)).clamp(1.0, 40.0) as usize;
+            // About two points per pixel, and the last one.
+            let every = (2.5 / (on.right - on.left)).clamp(1.0, 20.0) as usize;
             let last = here[here.len() - 1];
             let drawn = here.into_iter().step_by(every).chain([last]).collect();
             pressures = pressures.line(drawn, color, &label);
@@ -155,7 +155,6 @@ fn draw(body: &Spline<f64>, all: &[Pressed]) -> Result<String, Box<dyn Error>> {
     let counts = Panel::new("Contacts", ("F / (N/mm)", [0.0, 3.7]), ("number", [0.0, most + 1.0]))
         .size(560, 120)
         .powers(true, false)
-        .line(counts.clone(), BLUE, "")
         .dots(counts, BLUE, "");
     drawing::save("rough_profile", vec![vec![pressures, profile, counts]])
 }

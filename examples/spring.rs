@@ -125,12 +125,11 @@ fn shares(table: &SpringTable<f64>, tangent: [f64; 2]) -> Result<Panel, ContactE
             constant.push((exponent, 100.0 * (load / point.load - 1.0)));
         }
     }
-    constant.retain(|point: &(f64, f64)| point.1 > -15.0);
-    let axes = (("load / (N/mm)", [0.0, 3.0]), ("off by / %", [-15.0, 10.0]));
+    let axes = (("load / (N/mm)", [0.0, 3.0]), ("off by / %", [-15.0, 20.0]));
     Ok(Panel::new("The load by other formulas, at the same approach", axes.0, axes.1)
         .size(440, 200)
         .powers(true, false)
-        .legend(SeriesLabelPosition::LowerRight)
+        .legend(SeriesLabelPosition::UpperLeft)
         .line(weber, BLACK, "Weber and Banaschek")
         .line(iso, RED, "ISO/TS 16281")
         .dashed(constant, GRAY, "constant stiffness"))

@@ -16,6 +16,7 @@ use drawing::{BLACK, BLUE, Grid, Panel, Points, RED, SeriesLabelPosition};
 use linecontact::stress::Subsurface;
 use linecontact::{Contact, ContactError, Control, Cost, Curve, CurvePoint, Flat, Solution};
 use std::error::Error;
+use std::f64::consts::PI;
 
 const L: f64 = 0.1;
 
@@ -61,6 +62,7 @@ fn draw(
     p0: f64,
 ) -> Result<String, Box<dyn Error>> {
     const REACH: f64 = 2.5;
+    const WIDTH: i32 = 400;
     let x: Vec<f64> = (-100..=100).map(|i| f64::from(i) / 40.0).collect();
 
     // Heights of flat and roller under load, in units of L²/R = L². Each surface moves by half the
@@ -78,45 +80,43 @@ fn draw(
     let before = |height: fn(f64) -> f64| -> Points { x.iter().map(|&x| (x, height(x))).collect() };
     let range = [-REACH, REACH];
     let heights = [-0.9, 2.6];
-    let bodies = Panel::new(
-        "The bodies (under load: from the edges of the contact)",
-        ("", range),
-        ("y R/L²", heights),
-    )
-    .size(500, 200)
-    .legend(SeriesLabelPosition::UpperMiddle)
-    .body(surface(0), heights[0], BLUE, "flat under load")
-    .body(surface(1), heights[1], RED, "roller under load")
-    .dashed(before(|_| 0.0), BLACK, "before loading")
-    .dashed(before(|x| x * x / 2.0), BLACK, "");
+    let bodies = Panel::new("The bodies", ("", range), ("y R/L²", heights))
+        .size(WIDTH, 220)
+        .legend(SeriesLabelPosition::UpperMiddle)
+        .body(surface(0), heights[0], BLUE, "flat under load")
+        .body(surface(1), heights[1], RED, "roller under load")
+        .dashed(before(|_| 0.0), BLACK, "before loading")
+        .dashed(before(|x| x * x / 2.0), BLACK, "");
 
     let pressure = solution.pressure()?;
-    let share = |&x: &f64| Ok((x, pressure.estimate(L * x, &mut Cost::default())?.value / p0));
-    let pressures = x.iter().map(share).collect::<Result<Points, ContactError<_>>>()?;
+    // Places at equal angles: close together at the edges, where the pressure is steep.
+    let on = solution.hull();
+    let x = (0..=200).map(|i| on.at_angle(PI * f64::from(i) / 200.0));
+    let share = |x| Ok((x / L, pressure.estimate(x, &mut Cost::default())?.value / p0));
+    let pressures = x.map(share).collect::<Result<Points, ContactError<_>>>()?;
     let pressures = Panel::new("Pressure", ("x/L", range), ("P/p₀", [0.0, 1.2]))
-        .size(500, 160)
+        .size(WIDTH, 160)
         .body(pressures, 0.0, BLUE, "")
         .limit(-1.0, "−L")
         .limit(1.0, "L");
 
-    let levels: Vec<f64> = (1..=8).map(|i| 0.04 * f64::from(i)).collect();
+    let levels: Vec<f64> = (1..=16).map(|i| 0.02 * f64::from(i)).collect();
     let field = |below: &Subsurface<f64>, title: &str, label: &str| {
         let shear =
             |x, y: f64| Ok::<_, ContactError<f64>>(below.at(L * x, -L * y)?.max_shear() / p0);
-        let grid = Grid::new(range, [-2.0, 0.0], [42, 17], shear)?;
+        let grid = Grid::new(range, [-2.0, 0.0], [100, 40], shear)?;
         let worst = below.max_shear()?;
         let (x, y) = (worst.x / L, -worst.depth / L);
-        let panel = Panel::new(title, (label, range), ("−depth/L", [-2.0, 0.0]));
-        let panel =
-            panel.with_equal_scales(500).levels(&grid, &levels, RED).dots(vec![(x, y)], BLACK, "");
-        Ok::<_, ContactError<f64>>(panel.note(
-            x,
-            y - 0.06,
-            &format!("{:.3} p₀", worst.value / p0),
-            BLACK,
-        ))
+        let name = format!("{:.3} p₀", worst.value / p0);
+        let panel = Panel::new(title, (label, range), ("y/L", [-2.0, 0.0]))
+            .with_equal_scales(WIDTH)
+            .levels(&grid, &levels, RED)
+            .dots(vec![(x, y)], BLACK, "")
+            .note(x, y - 0.06, &name, BLACK);
+        Ok::<_, ContactError<f64>>(panel)
     };
-    let still = field(below[0], "Largest shear stress, in steps of 0.04 p₀", "")?;
+    let still = field(below[0], "Stress below the surface", "")?;
     let sliding = field(below[1], "The same with friction, µ = 0.25", "x/L")?;
-    drawing::save("stress_field", vec![vec![bodies, pressures], vec![still, sliding]])
+    let key = Panel::key("largest shear stress / p₀", WIDTH, &levels, RED);
+    drawing::save("stress_field", vec![vec![bodies, pressures], vec![still, sliding, key]])
 }

@@ -7,9 +7,9 @@ use linecontact::search::{Bracket, LimitSearch, Newton, SearchError};
 use linecontact::{Interval, ParametricProfile};
 use std::error::Error;
 
-/// Unit of x in the figures, so that tick labels need no exponents.
+/// Scale of x in the figures, so that tick labels need no exponents. The paper has no units.
 const UNIT: f64 = 1e-3;
-const X_LABEL: &str = "x / 10⁻³";
+const X_LABEL: &str = "x / 10⁻³ (no unit)";
 
 /// Draws the solids and the pressure of an example, and returns a line that names the file.
 pub fn draw(case: &Case, solved: &[Solved; 2]) -> Result<String, Box<dyn Error>> {
@@ -30,9 +30,9 @@ fn solids(case: &Case, contact: Interval<f64>, title: &str) -> Result<Panel, Sea
     let bottom = heights().fold(f64::INFINITY, f64::min);
     let top = heights().fold(f64::NEG_INFINITY, f64::max);
     let margin = 0.15 * (top - bottom);
-    let (bottom, top) = (bottom - margin, top + margin);
+    let (bottom, top) = (bottom - 2.0 * margin, top + margin); // with room for the legend
     let range = [lower[0].0, lower[lower.len() - 1].0];
-    let panel = Panel::new(title, (X_LABEL, range), ("y", [bottom, top])).size(420, 280);
+    let panel = Panel::new(title, (X_LABEL, range), ("y (no unit)", [bottom, top])).size(400, 280);
     Ok(panel
         .legend(SeriesLabelPosition::LowerMiddle)
         .body(upper, top, RED, "upper body")
@@ -44,23 +44,23 @@ fn solids(case: &Case, contact: Interval<f64>, title: &str) -> Result<Panel, Sea
 /// Makes a panel of the pressures for both scales κ.
 fn pressures([one, half_pi]: &[Solved; 2], title: &str) -> Panel {
     let lines = [closed(one), closed(half_pi)];
-    let peak = 1.1 * lines.iter().flatten().map(|at| at.1).fold(0.0, f64::max);
+    let top = 1.6 * lines.iter().flatten().map(|at| at.1).fold(0.0, f64::max);
     let margin = 0.1 * one.contact.half_width(); // the wider of the two contacts
     let range = [one.contact.left - margin, one.contact.right + margin].map(|x| x / UNIT);
     let [blue, red] = lines;
-    Panel::new(title, (X_LABEL, range), ("P", [0.0, peak]))
-        .size(420, 280)
-        .legend(SeriesLabelPosition::LowerMiddle)
+    Panel::new(title, (X_LABEL, range), ("P (no unit)", [0.0, top]))
+        .size(400, 280)
+        .legend(SeriesLabelPosition::UpperMiddle)
         .line(blue, BLUE, "κ = 1")
+        .dashed(vertical(one.contact.left, top), BLUE, "its limits −b, a")
+        .dashed(vertical(one.contact.right, top), BLUE, "")
         .line(red, RED, "κ = π/2")
-        .limit(one.contact.left / UNIT, "−b")
-        .limit(one.contact.right / UNIT, "a")
-        .dashed(vertical(half_pi.contact.left, peak), RED, "")
-        .dashed(vertical(half_pi.contact.right, peak), RED, "")
+        .dashed(vertical(half_pi.contact.left, top), RED, "its limits −b, a")
+        .dashed(vertical(half_pi.contact.right, top), RED, "")
 }
 
 fn vertical(x: f64, top: f64) -> Points {
-    vec![(x / UNIT, 0.0), (x / UNIT, 0.92 * top)]
+    vec![(x / UNIT, 0.0), (x / UNIT, top)]
 }
 
 /// Returns the points (x, Y) of a profile around the contact.

@@ -16,12 +16,17 @@ use std::path::Path;
 const FINE: i32 = 10;
 /// Margins of a panel around its plot, in pixels: left, right, above, below.
 const ROOM: [i32; 4] = [60, 16, 34, 42];
-const FONT: i32 = 13;
+/// Height of letters in pixels. A picture up to 980 pixels wide is legible on a page of 800.
+const FONT: i32 = 14;
 
 pub const BLUE: RGBColor = RGBColor(31, 95, 168);
 pub const RED: RGBColor = RGBColor(181, 64, 26);
 pub const GRAY: RGBColor = RGBColor(110, 110, 110);
 pub const BLACK: RGBColor = RGBColor(20, 20, 20);
+/// End of a label: Plotters takes letters for narrower than they are.
+const ROOM_OF_LABEL: &str = "  ";
+/// Border of a legend.
+const BORDER: RGBColor = RGBColor(190, 190, 190);
 
 pub type Points = Vec<(f64, f64)>;
 
@@ -96,17 +101,44 @@ impl Panel {
         self.with(Shape::Dots { points, color, label: label.to_owned() })
     }
 
-    /// Fills the area inside a closed line.
+    /// Fills the area inside a closed line, which must be within the axes.
     pub fn area(self, points: Points, color: RGBColor) -> Self {
         self.with(Shape::Area { points, color })
     }
 
     /// Adds a body: its outline, and the area between the outline and y.
-    pub fn body(self, outline: Points, y: f64, color: RGBColor, label: &str) -> Self {
-        let (first, last) = (outline[0].0, outline[outline.len() - 1].0);
-        let mut around = outline.clone();
-        around.extend([(last, y), (first, y)]);
-        self.area(around, tint(color, 0.18)).line(outline, color, label)
+    pub fn body(mut self, outline: Points, y: f64, color: RGBColor, label: &str) -> Self {
+        for mut part in self.visible(&outline) {
+            part.extend([(part[part.len() - 1].0, y), (part[0].0, y)]);
+            self = self.area(part, tint(color, 0.18));
+        }
+        self.line(outline, color, label)
+    }
+
+    /// Cuts a line where it crosses the axes, and returns the parts between them.
+    fn visible(&self, line: &[(f64, f64)]) -> Vec<Points> {
+        let mut parts: Vec<Points> = Vec::new();
+        for two in line.windows(2) {
+            let [(x, y), (x_to, y_to)] = [two[0], two[1]];
+            let (mut enter, mut leave) = (0.0f64, 1.0f64);
+            for ([low, high], from, to) in [(self.ranges[0], x, x_to), (self.ranges[1], y, y_to)] {
+                let rounding = 1e-9 * (high - low);
+                let share = [low - rounding, high + rounding].map(|end| (end - from) / (to - from));
+                enter = enter.max(share[0].min(share[1]));
+                leave = leave.min(share[0].max(share[1]));
+            }
+            if enter >= leave {
+                continue;
+            }
+            let at = |share: f64| (x + share * (x_to - x), y + share * (y_to - y));
+            match parts.last_mut() {
+                Some(part) if part.last() == Some(&at(enter)) => {}
+                _ => parts.push(vec![at(enter)]),
+            }
+            let last = if leave < 1.0 { at(leave) } else { two[1] };
+            parts.last_mut().expect("one is there").push(last);
+        }
+        parts
     }
 
     /// Adds a vertical line with its name on top, as for a limit of the contact.
@@ -125,12 +157,21 @@ impl Panel {
     /// Fills the levels of a function between the lowest and the highest, darker for higher ones.
     pub fn levels(mut self, function: &Grid, levels: &[f64], color: RGBColor) -> Self {
         for (i, &level) in levels.iter().enumerate() {
-            let shade = tint(color, 0.08 + 0.8 * i as f64 / levels.len() as f64);
             for points in function.surrounding(level) {
-                self = self.area(points, shade);
+                self = self.area(points, shade(color, i, levels));
             }
         }
         self
+    }
+
+    /// Makes a bar that shows the colours of equidistant levels.
+    pub fn key(label: &str, width: i32, levels: &[f64], color: RGBColor) -> Self {
+        let high = levels[levels.len() - 1] + levels[0];
+        let bar = Self::new("", (label, [0.0, high]), ("", [0.0, 1.0])).size(width, 12);
+        levels.iter().enumerate().fold(bar, |bar, (i, &low)| {
+            let corners = vec![(low, 0.0), (high, 0.0), (high, 1.0), (low, 1.0)];
+            bar.area(corners, shade(color, i, levels))
+        })
     }
 
     fn with(mut self, shape: Shape) -> Self {
@@ -141,18 +182,25 @@ impl Panel {
     /// Returns width and height, margins included.
     fn whole(&self) -> [i32; 2] {
         let below = if self.labels[0].is_empty() { 10 } else { ROOM[3] };
-        [self.size[0] + ROOM[0] + ROOM[1], self.size[1] + ROOM[2] + below]
+        [self.size[0] + ROOM[0] + ROOM[1], self.size[1] + self.above() + below]
+    }
+
+    fn above(&self) -> i32 {
+        if self.title.is_empty() { 10 } else { ROOM[2] }
     }
 
     fn draw(&self, area: &DrawingArea<SVGBackend, Shift>) -> Result<(), Box<dyn Error>> {
-        let font = |size: i32| ("sans-serif", FINE * size).into_font().color(&BLACK);
+        // Plotters writes a size divided by 1.24.
+        let pixels = |size: i32| 1.24 * f64::from(FINE * size);
+        let font = |size: i32| ("sans-serif", pixels(size)).into_font().color(&BLACK);
         let [[left, right], [bottom, top]] = self.ranges;
         let middle = FINE * (ROOM[0] + self.size[0] / 2);
         let title = font(FONT + 1).pos(anchor());
         area.draw(&Text::new(self.title.clone(), (middle, 12 * FINE), title))?;
-        let below = self.whole()[1] - ROOM[2] - self.size[1];
+        let above = self.above();
+        let below = self.whole()[1] - above - self.size[1];
         let mut chart = ChartBuilder::on(area)
-            .margin_top(FINE * ROOM[2])
+            .margin_top(FINE * above)
             .margin_right(FINE * ROOM[1])
             .margin_left(FINE * 4)
             .margin_bottom(FINE * 2)
@@ -166,14 +214,14 @@ impl Panel {
         let ticks = |axis: usize, room: i32| {
             let [from, to] = self.ranges[axis];
             let whole = if self.powers[axis] { (to - from) as usize + 1 } else { usize::MAX };
-            whole.min((self.size[axis] / room).max(3) as usize)
+            let most = whole.min((self.size[axis] / room).max(3) as usize);
+            if self.labels[axis].is_empty() { 0 } else { most }
         };
         let (x_number, y_number) = (number(0), number(1));
-        let named = !self.labels[0].is_empty();
         let mut mesh = chart.configure_mesh();
         mesh.x_desc(self.labels[0].clone())
             .y_desc(self.labels[1].clone())
-            .x_labels(if named { ticks(0, 60) } else { 0 })
+            .x_labels(ticks(0, if self.powers[0] { 40 } else { 60 }))
             .y_labels(ticks(1, 28))
             .x_label_formatter(&x_number)
             .y_label_formatter(&y_number)
@@ -196,13 +244,12 @@ impl Panel {
             match shape {
                 Shape::Line { points, color, dashed, label } => {
                     let style = color.stroke_width(if *dashed { 12 } else { 18 });
-                    // Visible parts of the line.
-                    for part in points.split(|point| !inside(point)).filter(|part| part.len() > 1) {
+                    for part in self.visible(points) {
                         if *dashed {
-                            let line = DashedLineSeries::new(part.iter().copied(), 70, 50, style);
+                            let line = DashedLineSeries::new(part, 70, 50, style);
                             chart.draw_series(line)?;
                         } else {
-                            chart.draw_series([PathElement::new(part.to_vec(), style)])?;
+                            chart.draw_series([PathElement::new(part, style)])?;
                         }
                     }
                     if !label.is_empty() {
@@ -218,7 +265,7 @@ impl Panel {
                         };
                         chart
                             .draw_series([PathElement::new(vec![], style)])?
-                            .label(label)
+                            .label(format!("{label}{ROOM_OF_LABEL}"))
                             .legend(key);
                     }
                 }
@@ -230,16 +277,12 @@ impl Panel {
                         let key = move |(x, y)| Circle::new((x + 11 * FINE, y), 24, color.filled());
                         chart
                             .draw_series([PathElement::new(vec![], color)])?
-                            .label(label)
+                            .label(format!("{label}{ROOM_OF_LABEL}"))
                             .legend(key);
                     }
                 }
                 Shape::Area { points, color } => {
-                    let points: Points = points
-                        .iter()
-                        .map(|&(x, y)| (x.clamp(left, right), y.clamp(bottom, top)))
-                        .collect();
-                    chart.draw_series([Polygon::new(points, color.filled())])?;
+                    chart.draw_series([Polygon::new(points.clone(), color.filled())])?;
                 }
                 Shape::Note { x, y, text, color } => {
                     let style = font(FONT).color(color).pos(anchor());
@@ -251,15 +294,16 @@ impl Panel {
             let mut labels = chart.configure_series_labels();
             labels
                 .position(self.legend.clone())
-                .margin(FINE * 12)
+                .margin(FINE * 9)
                 .legend_area_size(FINE * 28)
-                .background_style(WHITE.mix(0.85))
+                .background_style(WHITE)
+                .border_style(BORDER)
                 .label_font(font(FONT - 1));
             labels.draw()?;
         }
         // The frame, on top of lines that end at it.
         let [width, height] = self.size.map(|size| FINE * size);
-        let corner = (FINE * ROOM[0], FINE * ROOM[2]);
+        let corner = (FINE * ROOM[0], FINE * above);
         let (right, bottom) = (corner.0 + width, corner.1 + height);
         let frame = vec![corner, (right, corner.1), (right, bottom), (corner.0, bottom), corner];
         area.draw(&PathElement::new(frame, BLACK.stroke_width(FINE as u32)))?;
@@ -304,8 +348,16 @@ pub fn write(path: &Path, columns: Vec<Vec<Panel>>) -> Result<(), Box<dyn Error>
     }
     let [large, shown] =
         [FINE, 1].map(|by| format!("<svg width=\"{}\" height=\"{}\"", by * size[0], by * size[1]));
-    fs::write(path, svg.replacen(&large, &shown, 1))?;
+    // Plotters writes no width of a border.
+    let [thin, border] =
+        ["/>", " stroke-width=\"8\"/>"].map(|end| format!("stroke=\"#BEBEBE\"{end}"));
+    fs::write(path, svg.replacen(&large, &shown, 1).replace(&thin, &border))?;
     Ok(())
+}
+
+/// Returns the colour above a level.
+fn shade(color: RGBColor, i: usize, levels: &[f64]) -> RGBColor {
+    tint(color, 0.08 + 0.8 * i as f64 / levels.len() as f64)
 }
 
 /// Mixes a colour with white; a share of 1 leaves it unchanged.

@@ -17,12 +17,13 @@ const COLORS: [RGBColor; 7] = [
 ];
 /// Exponents of the errors drawn; an error of zero is drawn at the lowest.
 const EXPONENTS: [f64; 2] = [-17.0, 0.0];
-/// Scenes in the picture of the documentation.
-const SHOWN: [[&str; 2]; 2] = [["Example 1", "Example 4"], ["circle L/R=0.99", "gear teeth"]];
+/// Scenes in the picture of the documentation; the first one has the legend.
+const SHOWN: [[&str; 2]; 2] = [["Example 4", "Example 1"], ["circle L/R=0.99", "gear teeth"]];
 
 /// Draws some scenes into one picture, by evaluations, and returns a line that names the file.
 pub fn some(rows: &[Row]) -> Result<String, Box<dyn Error>> {
-    let columns = SHOWN.map(|pair| pair.map(|scene| diagram(rows, scene, WORK[0])).into());
+    let columns = SHOWN
+        .map(|pair| pair.map(|scene| diagram(rows, scene, WORK[0], scene == SHOWN[0][0])).into());
     drawing::save("speed_vs_error", columns.into())
 }
 
@@ -30,7 +31,7 @@ pub fn some(rows: &[Row]) -> Result<String, Box<dyn Error>> {
 pub fn all(rows: &[Row], folder: &Path) -> Result<usize, Box<dyn Error>> {
     let scenes = scenes(rows);
     for (i, scene) in scenes.iter().enumerate() {
-        let columns = WORK.map(|work| vec![diagram(rows, scene, work)]);
+        let columns = WORK.map(|work| vec![diagram(rows, scene, work, true)]);
         drawing::write(&folder.join(format!("{:02}.svg", i + 1)), columns.into())?;
     }
     Ok(scenes.len())
@@ -49,7 +50,7 @@ fn scenes(rows: &[Row]) -> Vec<&'static str> {
     scenes
 }
 
-fn diagram(rows: &[Row], scene: &str, (label, work): Work) -> Panel {
+fn diagram(rows: &[Row], scene: &str, (label, work): Work, legend: bool) -> Panel {
     let rows = rows
         .iter()
         .filter(|row| row.scene == scene && row.inversion == DEFAULT && row.limits == DEFAULT);
@@ -65,10 +66,11 @@ fn diagram(rows: &[Row], scene: &str, (label, work): Work) -> Panel {
         lines.push((method, color, points));
     }
     let most = lines.iter().flat_map(|line| &line.2).fold(1.0, |most: f64, at| most.max(at.0));
-    let axes = ((label, [0.0, most.ceil()]), ("largest relative error of a, b, P", EXPONENTS));
-    let panel = Panel::new(scene, axes.0, axes.1).size(480, 260).powers(true, true);
+    let axes = ((label, [0.0, most.ceil()]), ("relative error of a, b, P", EXPONENTS));
+    let panel = Panel::new(scene, axes.0, axes.1).size(410, 260).powers(true, true);
     let drawn = lines.into_iter().filter(|line| !line.2.is_empty());
     drawn.fold(panel.legend(SeriesLabelPosition::UpperLeft), |panel, (method, color, points)| {
+        let method = if legend { method } else { "" };
         panel.line(points.clone(), color, method).dots(points, color, "")
     })
 }
