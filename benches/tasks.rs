@@ -310,14 +310,26 @@ impl Task {
     }
 }
 
+/// Returns the errors of the pressure and of the limits, and the evaluations of the curves.
+fn count(task: &Task, tolerance: f64) -> Result<([f64; 2], usize)> {
+    let (mut points, counted) = (Points::new(), bodies::<true>(task.name));
+    let before = CALLS.load(Relaxed);
+    let contact = cold(task, &counted, tolerance, &mut points)?;
+    Ok((task.errors(contact, &points), CALLS.load(Relaxed) - before))
+}
+
+/// Returns the evaluations of the curves for a task by its name.
+#[allow(dead_code)] // Of use to tests/suite/readme.rs.
+pub(crate) fn evaluations(name: &str, tolerance: f64) -> usize {
+    let task = TASKS.iter().find(|task| task.name == name).expect("one of the tasks");
+    count(task, tolerance).expect("the task has a solution").1
+}
+
 /// Returns the errors of the pressure and of the limits, the evaluations of the curves, and µs
 /// cold.
 fn measure(task: &Task, tolerance: f64) -> Result<([f64; 2], usize, f64)> {
-    let (counted, bodies) = (bodies::<true>(task.name), bodies::<false>(task.name));
-    let (mut points, before) = (Points::new(), CALLS.load(Relaxed));
-    let contact = cold(task, &counted, tolerance, &mut points)?;
-    let calls = CALLS.load(Relaxed) - before;
-    let errors = task.errors(contact, &points);
+    let (errors, calls) = count(task, tolerance)?;
+    let (bodies, mut points) = (bodies::<false>(task.name), Points::new());
     let us = time(|| {
         let _ = black_box(cold(task, black_box(&bodies), black_box(tolerance), &mut points));
         black_box(&mut points);

@@ -6,7 +6,7 @@
 //! to `target/figures/measured_profile.svg`. Lengths in mm, pressures in MPa, load in N/mm.
 //!
 //! At last it prints the errors of limits and peak for several numbers of points, and for a noise
-//! that is given a tenth too small or too large.
+//! that is given a tenth too small or too large. Two of them are in the README.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
@@ -117,6 +117,7 @@ fn table() -> Result<(), Box<dyn Error>> {
     println!("noise 1e-5 R, points over four half-widths to either side, largest errors of 20:");
     println!("         noise given: 0.9 of it         all            1.1 of it");
     println!("L/R    points   limits   peak    limits   peak    limits   peak");
+    let mut of_readme = Vec::new();
     for (half_width, count) in SIZES {
         print!("{half_width:<5} {count:7}");
         let exact = Ellipse::circle(1.0, half_width)?;
@@ -136,8 +137,20 @@ fn table() -> Result<(), Box<dyn Error>> {
                 worst = [worst[0].max(limits[0]).max(limits[1]), worst[1].max(peak.abs())];
             }
             print!("  {:7.0e} {:7.0e}", worst[0], worst[1]);
+            if count == 4001 && given == 1.0 {
+                of_readme.push(worst);
+            }
         }
         println!();
+    }
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md"))?;
+    for (i, name) in ["limits, 4001 measured points, noise 1e-5 R", "peak pressure, the same"]
+        .into_iter()
+        .enumerate()
+    {
+        let [narrow, wide] = [of_readme[0][i], of_readme[1][i]];
+        let row = format!("|{name}|{narrow:.0e} at L/R = 0.02, {wide:.0e} at 0.1|");
+        assert!(readme.contains(&row), "the README has another row than {row}");
     }
     Ok(())
 }

@@ -13,6 +13,7 @@ use drawing::{BLUE, Panel, Points, RED, SeriesLabelPosition};
 use linecontact::{Contact, Control, Curve, CurvePoint, Flat, Piecewise, Solver};
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
+use std::fs;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -28,7 +29,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     println!("            evaluations               microseconds");
     println!("    pieces  first  next  |   make   first    next   P(x)  |  error of a");
     let (mut first_solves, mut next_solves) = (Points::new(), Points::new());
-    let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+    let (mut least, mut most, mut each) = (f64::INFINITY, 0.0f64, 0.0);
     for pieces in [10, 100, 1_000, 10_000, 100_000] {
         let Row { evaluations: [first, next], micros: [make, cold, warm, pressure], error } =
             measure(pieces)?;
@@ -45,6 +46,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
             (least, most) = (least.min(first), most.max(first));
         }
         assert!(error < 1e-12);
+        each = first;
     }
     let axes = (("pieces in the contact", [0.5, 5.0]), ("evaluations of the curves", [0.0, 6.0]));
     let panel = Panel::new("A circle cut into arcs", axes.0, axes.1)
@@ -57,6 +59,10 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
         .dots(next_solves, RED, "");
     println!("{}", drawing::save("pieces", vec![vec![panel]])?);
     assert!(most < 1.3 * least, "a piece costs the same however many there are");
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md"))?;
+    let row = readme.lines().find(|line| line.starts_with("|each piece of 100 000|"));
+    let is_as_counted = row.is_some_and(|row| row.ends_with(&format!("|{each:.0}|")));
+    assert!(is_as_counted, "the README has another count than {each:.0}: {row:?}");
     Ok(())
 }
 

@@ -2,11 +2,11 @@
 
 /// True where sin, cos and pow are those of the kept counts; with other libraries a search may take
 /// a step more or fewer.
-const SAME_LIBRARY: bool =
+pub const SAME_LIBRARY: bool =
     cfg!(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu"));
 const SLACK: f64 = if SAME_LIBRARY { 0.0 } else { 0.1 };
 /// Allowed factor of an error: a few ulps here may be several times as many elsewhere.
-const ERROR_FACTOR: f64 = 10.0;
+pub const ERROR_FACTOR: f64 = 10.0;
 const ERROR_FLOOR: f64 = 2e-15;
 
 pub fn counts_agree(kept: f64, found: f64) -> bool {

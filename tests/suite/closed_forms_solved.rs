@@ -1,7 +1,7 @@
 //! The solver against the closed forms of `linecontact::reference`.
 #![allow(missing_docs)]
 
-use crate::common::{circle, graph, join, limits_off, on_flat};
+use crate::common::{NanSafe, circle, graph, join, limits_off, on_flat, worst};
 use crate::forms;
 
 use approx::assert_relative_eq;
@@ -11,8 +11,10 @@ use linecontact::search::{Bisection, LimitSearch, Secant};
 use linecontact::{Contact, ContactError, Control, Cost, Flat, SolveError};
 use std::f64::consts::PI;
 
-#[test]
-fn the_solver_agrees_with_them() {
+/// Solves all closed forms, and returns the largest relative errors of the limits and of the
+/// pressure away from the edges.
+pub fn largest_errors() -> [f64; 2] {
+    let mut largest = [0.0; 2];
     for Form { name, form, reach } in forms::<f64>() {
         let (want, load) = (form.limits(), form.load(KAPPA));
         let body = body(&*form, -reach, reach).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -59,7 +61,14 @@ fn the_solver_agrees_with_them() {
         // One ulp of a limit is a share of 1e-10 of the distance.
         let far = want.right.abs().max(want.left.abs()) / distance;
         assert!(beside < 1e-12 + 2.0 * f64::EPSILON * far * open, "{name}: {beside}");
+        largest = [worst([largest[0], worst(relative)]), largest[1].nan_max(inside)];
     }
+    largest
+}
+
+#[test]
+fn the_solver_agrees_with_them() {
+    largest_errors();
 }
 
 #[test]

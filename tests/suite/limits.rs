@@ -9,9 +9,10 @@ use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant, Stoppin
 use linecontact::{Contact, Control, Curve, CurvePoint, Flat, Interval};
 use std::f64::consts::PI;
 
-#[test]
-fn limits_agree_with_the_references() {
-    for scene in scenes() {
+/// Solves the scenes that have a reference, and returns the larger relative error of a and b of
+/// each.
+pub fn errors() -> Vec<(&'static str, f64)> {
+    let solved = |scene: common::Scene| {
         let want = reference(scene.name);
         let contact = scene.contact();
         let solution = contact.solve(Control::Load(want.c / PI)).expect(scene.name);
@@ -25,7 +26,15 @@ fn limits_agree_with_the_references() {
         );
         assert_close(solution.a(), want.a, scene.accuracy);
         assert_close(solution.b(), want.b, scene.accuracy);
-    }
+        let errors = [solution.a() / want.a - 1.0, solution.b() / want.b - 1.0];
+        (scene.name, common::worst(errors.map(f64::abs)))
+    };
+    scenes().into_iter().map(solved).collect()
+}
+
+#[test]
+fn limits_agree_with_the_references() {
+    errors();
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! All tests without features, as one program, so that the solver is compiled only once.
 #![allow(missing_docs)]
+#![allow(clippy::duplicate_mod, reason = "programs of their own, whose scenes are compared")]
 
 #[path = "../common/boundary_elements.rs"]
 mod boundary_elements;
@@ -12,6 +13,12 @@ mod integrals;
 #[allow(dead_code)]
 #[path = "../common/kept.rs"]
 mod kept;
+#[allow(dead_code)]
+#[path = "../../benches/several.rs"]
+mod several_bench;
+#[allow(dead_code)]
+#[path = "../../benches/tasks.rs"]
+mod tasks_bench;
 
 mod accuracy;
 mod approach;
@@ -61,6 +68,7 @@ mod pull_off;
 mod quadrature;
 mod quantities;
 mod random_scenes;
+mod readme;
 mod reference_tables;
 mod references_f32;
 mod resolution;

@@ -105,7 +105,7 @@ fn compare(
     mu: f64,
     allowed: f64,
     potential: impl Fn(Complex) -> [Complex; 2],
-) {
+) -> f64 {
     let on = field.hull();
     let half_width = on.half_width();
     let (mut worst, mut place) = (0.0, (0.0, 0.0));
@@ -129,24 +129,40 @@ fn compare(
     }
     println!("{name:24} μ = {mu:4}: largest error {worst:.1e} at {place:?}");
     assert!(worst < allowed, "{name}: {worst} at {place:?}");
+    worst
 }
 
-#[test]
-fn hertz_everywhere() {
+/// Returns the largest error of the stress below four closed forms, as a share of a pressure.
+pub fn largest_error() -> f64 {
+    worst([below_hertz(), below_two_terms(), below_a_wedge(), below_a_tilted_punch()])
+}
+
+/// Returns the largest error below Hertz's contact, with friction and without.
+fn below_hertz() -> f64 {
     let form = Hertz::new(2.0, 0.3).unwrap();
     let peak = form.pressure(0.0, KAPPA);
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
     let solution = contact.solve(Control::HalfWidth(0.3)).unwrap();
-    for mu in [0.0, 0.25, -1.0] {
+    worst([0.0, 0.25, -1.0].map(|mu| {
         let field = solution.subsurface().unwrap().friction(mu).unwrap();
         compare("Hertz", &field, peak, mu, 2e-14, |z| {
             let root = z.root();
             // 1/(z + root), which does not cancel.
             let u = Complex(1.0, 0.0) / (z + root);
             [u * (PI * peak), u * (-PI * peak) / root]
-        });
-    }
+        })
+    }))
+}
+
+#[test]
+fn hertz_everywhere() {
+    below_hertz();
+    let form = Hertz::new(2.0, 0.3).unwrap();
+    let peak = form.pressure(0.0, KAPPA);
+    let body = body(&form, -1.0, 1.0).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
+    let solution = contact.solve(Control::HalfWidth(0.3)).unwrap();
     // On the axis, Johnson, Eqs. 4.46; and the same field by Eqs. 4.49 with their m and n.
     let field = solution.subsurface().unwrap();
     let (mut on_axis, mut off_axis) = (0.0f64, 0.0f64);
@@ -177,8 +193,8 @@ fn hertz_everywhere() {
     assert!(on_axis < 2e-14 && off_axis < 2e-14);
 }
 
-#[test]
-fn a_series_of_two_terms() {
+/// Returns the largest error below a parabola with an x⁴.
+fn below_two_terms() -> f64 {
     let form = Biquadratic::new(1.0, 5.0, 0.4).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
@@ -186,36 +202,45 @@ fn a_series_of_two_terms() {
     // κ (x + 20 x³) = c₁ cos θ + c₃ cos 3θ.
     let cubic = KAPPA * 20.0 * 0.4f64.powi(3) / 4.0;
     let (c1, c3) = (KAPPA * 0.4 + 3.0 * cubic, cubic);
-    for mu in [0.0, 0.3] {
+    worst([0.0, 0.3].map(|mu| {
         let field = solution.subsurface().unwrap().friction(mu).unwrap();
         compare("parabola and x⁴", &field, solution.peak().unwrap().pressure, mu, 2e-14, |z| {
             let root = z.root();
             let u = Complex(1.0, 0.0) / (z + root);
             let cube = u * u * u;
             [u * c1 + cube * c3, (u * -c1 + cube * (-3.0 * c3)) / root]
-        });
-    }
+        })
+    }))
 }
 
-/// Potential of a wedge: `W = 2 κ m/π arcsin(L/ζ)`.
 #[test]
-fn a_wedge_whose_pressure_is_infinite() {
+fn a_series_of_two_terms() {
+    below_two_terms();
+}
+
+/// Returns the largest error below a wedge, whose potential is `W = 2 κ m/π arcsin(L/ζ)`.
+fn below_a_wedge() -> f64 {
     let form = Wedge::new(0.1, 0.2).unwrap();
     let body = body(&form, -1.0, 1.0).unwrap();
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA);
     let solution = contact.solve(Control::Load(form.load(KAPPA))).unwrap();
-    for mu in [0.0, 0.3] {
+    worst([0.0, 0.3].map(|mu| {
         let field = solution.subsurface().unwrap().friction(mu).unwrap();
         compare("wedge", &field, solution.mean_pressure(), mu, 2e-14, |z| {
             let inverse = Complex(1.0, 0.0) / z;
             let scale = 2.0 * KAPPA * 0.1 / PI;
             [inverse.asin() * scale, inverse / z.root() * -scale]
-        });
-    }
+        })
+    }))
 }
 
 #[test]
-fn a_tilted_flat_punch() {
+fn a_wedge_whose_pressure_is_infinite() {
+    below_a_wedge();
+}
+
+/// Returns the largest error below a tilted flat punch.
+fn below_a_tilted_punch() -> f64 {
     let (load, slope, half_width) = (0.7, 0.1, 0.5);
     let form = FlatPunch::under_load(half_width, slope, load, KAPPA).unwrap();
     let body = body(&form, -0.5, 0.5).unwrap();
@@ -223,7 +248,7 @@ fn a_tilted_flat_punch() {
     let contact = Contact::new(&Flat, &body).unwrap().kappa(KAPPA).edges(left, right);
     let solution = contact.solve(Control::Load(load)).unwrap();
     let (alpha, beta) = (load / half_width / PI, -KAPPA * slope / PI);
-    for mu in [0.0, 0.3] {
+    worst([0.0, 0.3].map(|mu| {
         let field = solution.subsurface().unwrap().friction(mu).unwrap();
         compare("tilted flat punch", &field, solution.mean_pressure(), mu, 2e-14, |z| {
             let root = z.root();
@@ -231,8 +256,13 @@ fn a_tilted_flat_punch() {
             let w = top / root - Complex(beta, 0.0);
             let dw = Complex(beta, 0.0) / root - top * z / (root * root * root);
             [w * PI, dw * PI]
-        });
-    }
+        })
+    }))
+}
+
+#[test]
+fn a_tilted_flat_punch() {
+    below_a_tilted_punch();
 }
 
 /// The forces through a cut at any depth equal those on the surface.
