@@ -119,6 +119,13 @@ impl<T: Real> Placement<T> {
         scaled.asked("a factor of a placement", factor, !factor.is_zero())
     }
 
+    /// Returns a point of the body where it is placed.
+    #[must_use]
+    pub fn apply(&self, point: [T; 2]) -> [T; 2] {
+        let [x, y] = self.direction(point);
+        [x + self.shift[0], y + self.shift[1]]
+    }
+
     /// Tells whether `X` depends on `X` alone, and `Y` on `Y`.
     fn is_upright(&self) -> bool {
         self.matrix[0][1].is_zero() && self.matrix[1][0].is_zero()
@@ -131,9 +138,8 @@ impl<T: Real> Placement<T> {
     }
 
     fn point(&self, CurvePoint { x, y, dx, dy }: CurvePoint<T>) -> CurvePoint<T> {
-        let ([x, y], [dx, dy]) = (self.direction([x, y]), self.direction([dx, dy]));
-        let [along, across] = self.shift;
-        CurvePoint { x: x + along, y: y + across, dx, dy }
+        let ([x, y], [dx, dy]) = (self.apply([x, y]), self.direction([dx, dy]));
+        CurvePoint { x, y, dx, dy }
     }
 }
 

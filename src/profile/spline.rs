@@ -199,7 +199,8 @@ impl<T: Real> Spline<T> {
 
     /// Places the body: moved, mirrored, flipped, turned or scaled.
     ///
-    /// The uncertainty of a smoothed spline is lost: place the points instead, before the fit.
+    /// The uncertainty of a smoothed spline is lost. To keep it, place the points before the fit, by
+    /// [`Placement::apply`].
     ///
     /// ```
     /// use linecontact::profile::{Parabola, Placement, Spline};

@@ -310,6 +310,12 @@ fn uncertainty_is_known_where_the_fit_is() {
     let placed = body.placed(Placement::default().mirrored()).unwrap();
     let error = of(&Flat, &placed).unwrap_err();
     assert!(matches!(error, ContactError::Evaluation(EvaluationError::NoUncertainty { .. })));
+    let mut turned: Vec<[f64; 2]> =
+        points.iter().map(|&point| Placement::default().mirrored().apply(point)).collect();
+    turned.reverse();
+    let turned = of(&Flat, &Spline::fitted(&turned, smooth).unwrap()).unwrap();
+    assert_relative_eq!(turned.a, alone.b, max_relative = 1e-9);
+    assert_relative_eq!(turned.b, alone.a, max_relative = 1e-9);
     let exact = Spline::through(&points).unwrap().placed(Placement::default().mirrored()).unwrap();
     assert_eq!(exact.slope_deviation(&[0.0], &[1.0]), Some(0.0));
 }
