@@ -196,6 +196,7 @@ table! {
     OutsideTable { approach, range };
     InvalidPosition { x, inside, interval };
     NoLoadDerivative { why };
+    NoUncertainty { why };
     LengthMismatch { x, pressures };
     Integral { x, panels };
     Unresolved { x, pressure, error };
@@ -226,11 +227,8 @@ table! {
     Duplicate { row, x };
     Unsorted { row, x, before };
     Outlier { row, x, y, expected, deviations };
-    Noise { noise };
     Limit { deviations };
-    NothingLeft { noise, line };
     Overflow { row, x, before };
-    Smoothing { source };
 }
 table! {
     SearchError, "Search", SEARCH, transparent: [];

@@ -36,7 +36,7 @@ pub enum Recipe {
     Crowning { depth: f64, half_length: f64, domain: [f64; 2] },
     Wedge { slopes: [f64; 2], reach: f64 },
     RoundedPunch { flat: f64, radius: f64, reach: f64 },
-    Spline { points: Vec<[f64; 2]>, noise: f64, outliers: Option<f64> },
+    Spline { points: Vec<[f64; 2]>, smooth: bool, outliers: Option<f64> },
     Curve(Arc<Curve>),
     Piecewise { parts: Vec<Py<Profile>>, tolerance: Option<f64> },
     Placed { body: Py<Profile>, steps: Vec<Step> },
@@ -105,10 +105,10 @@ impl Recipe {
                 call::library(py, || rounded_punch(flat, radius, reach)).map(Built::RoundedPunch)
             }
             // Measured points are not parameters.
-            Self::Spline { ref points, noise, outliers } => {
+            Self::Spline { ref points, smooth, outliers } => {
                 let of = <L::Of as Real>::of;
                 let points: Vec<_> = points.iter().map(|point| point.map(of)).collect();
-                let fit = Fit { noise: of(noise), outliers: outliers.map(of) };
+                let fit = Fit { smooth, outliers: outliers.map(of) };
                 call::library(py, || Spline::fitted(&points, fit)).map(Built::Spline)
             }
             Self::Curve(ref curve) => lift.curve(curve),
@@ -130,6 +130,10 @@ impl Recipe {
                 joined.map(Built::Joined)
             }
             Self::Placed { ref body, ref steps } => {
+                if let Self::Spline { points, smooth: true, .. } = &body.get().recipe {
+                    let placement = placement(steps, lift)?;
+                    return call::library(py, || refitted(points, placement)).map(Built::Spline);
+                }
                 let body = lift.body(py, body.get())?;
                 let placement = placement(steps, lift)?;
                 // A body is placed in one go: Python keeps the steps.
@@ -137,6 +141,23 @@ impl Recipe {
             }
         }
     }
+}
+
+/// Fits a smoothed spline to its points where they are placed: placed afterwards, it would lose its
+/// uncertainty.
+fn refitted<T: Real>(
+    points: &[[f64; 2]],
+    placement: Placement<T>,
+) -> Result<Spline<T>, ContactError<T>> {
+    // Refuses an impossible placement.
+    Placed::new(Flat, placement)?;
+    let place = |point: &[f64; 2]| placement.apply(point.map(T::of));
+    let mut placed: Vec<_> = points.iter().map(place).collect();
+    if placed[placed.len() - 1][0] < placed[0][0] {
+        placed.reverse();
+    }
+    // The fit at the first place has looked for outliers.
+    Ok(Spline::fitted(&placed, Fit { smooth: true, outliers: None })?)
 }
 
 fn placement<L: Lift>(steps: &[Step], lift: &mut L) -> PyResult<Placement<L::Of>> {
@@ -252,16 +273,16 @@ impl Profile {
 
     /// Makes a spline from rows of x and y.
     #[staticmethod]
-    #[pyo3(signature = (points, noise, outliers))]
+    #[pyo3(signature = (points, smooth, outliers))]
     fn spline(
         py: Python<'_>,
         points: PyReadonlyArray2<'_, f64>,
-        noise: f64,
+        smooth: bool,
         outliers: Option<f64>,
     ) -> PyResult<Self> {
         let rows = points.as_array();
         let points = rows.rows().into_iter().map(|row| [row[0], row[1]]).collect();
-        Self::of(py, Recipe::Spline { points, noise, outliers })
+        Self::of(py, Recipe::Spline { points, smooth, outliers })
     }
 
     #[staticmethod]
@@ -295,6 +316,15 @@ impl Profile {
     #[getter]
     fn pieces(&self) -> usize {
         self.shared.pieces().max(1)
+    }
+
+    /// Returns the noise of measured points, as the fit has estimated it.
+    #[getter]
+    fn noise(&self) -> f64 {
+        match &self.built {
+            Built::Spline(spline) => spline.noise(),
+            _ => 0.0,
+        }
     }
 
     #[getter]

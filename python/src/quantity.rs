@@ -1,7 +1,7 @@
 //! Numbers of a solution by name: the columns of a sweep, and the numbers that have a gradient.
 
 use linecontact::stress::StressPeak;
-use linecontact::{ContactError, Peak, Real, References, Solution};
+use linecontact::{ContactError, Peak, Real, References, Solution, Uncertainty};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::cell::OnceCell;
@@ -27,6 +27,8 @@ pub enum Quantity {
     Stiffness,
     Contacts,
     LimitsError,
+    HalfWidthDeviation,
+    PeakPressureDeviation,
     IsChecked,
     Evaluations,
 }
@@ -51,6 +53,8 @@ pub const NAMES: &[(&str, Quantity)] = &[
     ("stiffness", Quantity::Stiffness),
     ("contacts", Quantity::Contacts),
     ("limits_error", Quantity::LimitsError),
+    ("half_width_deviation", Quantity::HalfWidthDeviation),
+    ("peak_pressure_deviation", Quantity::PeakPressureDeviation),
     ("is_checked", Quantity::IsChecked),
     ("evaluations", Quantity::Evaluations),
 ];
@@ -74,7 +78,9 @@ impl Quantity {
                 "is the place of a largest value"
             }
             Self::Contacts | Self::IsChecked | Self::Evaluations => "does not change smoothly",
-            Self::LimitsError => "is an estimate",
+            Self::LimitsError | Self::HalfWidthDeviation | Self::PeakPressureDeviation => {
+                "is an estimate"
+            }
             _ => return Ok(found),
         };
         Err(PyValueError::new_err(format!("{name} {why}: it has no derivative here")))
@@ -87,6 +93,7 @@ pub struct Asked<'s, T: Real> {
     references: Option<&'s References<T>>,
     peak: OnceCell<Peak<T>>,
     shear: OnceCell<StressPeak<T>>,
+    uncertainty: OnceCell<Uncertainty<T>>,
 }
 
 fn once<V: Copy, E>(cell: &OnceCell<V>, make: impl FnOnce() -> Result<V, E>) -> Result<V, E> {
@@ -98,7 +105,13 @@ fn once<V: Copy, E>(cell: &OnceCell<V>, make: impl FnOnce() -> Result<V, E>) -> 
 
 impl<'s, T: Real> Asked<'s, T> {
     pub fn of(solution: &'s Solution<'s, T>, references: Option<&'s References<T>>) -> Self {
-        Self { solution, references, peak: OnceCell::new(), shear: OnceCell::new() }
+        Self {
+            solution,
+            references,
+            peak: OnceCell::new(),
+            shear: OnceCell::new(),
+            uncertainty: OnceCell::new(),
+        }
     }
 
     fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
@@ -107,6 +120,10 @@ impl<'s, T: Real> Asked<'s, T> {
 
     fn shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
         once(&self.shear, || self.solution.subsurface()?.max_shear())
+    }
+
+    fn uncertainty(&self) -> Result<Uncertainty<T>, ContactError<T>> {
+        once(&self.uncertainty, || self.solution.uncertainty())
     }
 
     /// Returns the value of a quantity; NaN for an error of limits that were given, and for lengths
@@ -138,6 +155,8 @@ impl<'s, T: Real> Asked<'s, T> {
             },
             Quantity::Contacts => T::of(solution.intervals().len() as f64),
             Quantity::LimitsError => solution.limits_error().unwrap_or(nan),
+            Quantity::HalfWidthDeviation => self.uncertainty()?.half_width,
+            Quantity::PeakPressureDeviation => self.uncertainty()?.peak_pressure,
             Quantity::IsChecked => T::of(f64::from(u8::from(solution.report().is_checked()))),
             Quantity::Evaluations => T::of(solution.cost().evaluations as f64),
         })

@@ -4,7 +4,7 @@ use crate::call::{self, Array, Numbers};
 use crate::control::{ReferenceRow, references};
 use linecontact::stress::{Stress, StressPeak};
 use linecontact::{
-    Body, ContactError, Cost, Ends, Extremum, Interval, Outcome, Peak, Pressure, Start,
+    Body, ContactError, Cost, Ends, Extremum, Interval, Outcome, Peak, Pressure, Start, Uncertainty,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -289,6 +289,13 @@ impl Solution {
 
     fn load_rates(&self, py: Python<'_>) -> PyResult<LoadRates> {
         call::library(py, || self.0.load_rates()).map(LoadRates)
+    }
+
+    /// Returns the standard deviations of a, b, half-width and peak pressure.
+    fn uncertainty(&self, py: Python<'_>) -> PyResult<(f64, f64, f64, f64)> {
+        let Uncertainty { a, b, half_width, peak_pressure } =
+            call::library(py, || self.0.uncertainty())?;
+        Ok((a, b, half_width, peak_pressure))
     }
 
     fn certify(&self, py: Python<'_>) -> PyResult<Proof> {

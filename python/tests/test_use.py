@@ -56,7 +56,7 @@ def bodies() -> list[lc.Body]:
         lc.Wedge((-0.1, 0.2), 1.0),
         lc.RoundedPunch(1.0, 0.5, 3.0),
         lc.Spline(points),
-        lc.Spline(points, noise=1e-6, outliers=None),
+        lc.Spline(points, smooth=True, outliers=None),
         lc.Curve((-1.0, 1.0), Circle(10.0), "convex"),
         lc.Piecewise([lc.Line(-0.1, (-1.0, 0.0)), BODY.shifted(1.0, 0.0 - 0.5)], tolerance=1e-9),
     ]

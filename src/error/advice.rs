@@ -44,7 +44,7 @@ pub(super) fn along<T: Real>([from, to]: [T; 2]) -> String {
 
 /// Remedy where the contact found is not the whole contact.
 pub(super) const SEVERAL: &str = "where several may touch, give the load (for a half-width, a peak, adhesion or single_interval \
-    only one is sought); or change it a little, declare kinks as breakpoints, smooth measured points (Fit::noise)";
+    only one is sought); or change it a little, declare kinks as breakpoints, smooth measured points (Fit::smooth)";
 
 /// Returns the remedy for a negative pressure.
 pub(super) fn how_to_press<T: Real>(pressure: T) -> &'static str {

@@ -104,7 +104,7 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
                 "single_interval",
                 "give the load",
                 "breakpoints",
-                "Fit::noise",
+                "Fit::smooth",
                 "start",
             ],
         ),
@@ -364,7 +364,7 @@ fn the_message_of_a_contact_names_its_values() {
 #[test]
 fn the_message_of_what_is_no_contact_says_where_it_is_none_and_what_helps() {
     let (interval, load) = (ON, 1.5);
-    let helps = ["give the load", "change it a little", "breakpoints", "Fit::noise"];
+    let helps = ["give the load", "change it a little", "breakpoints", "Fit::smooth"];
     let minus_infinity = f64::NEG_INFINITY;
     for (error, words, helps) in [
         (

@@ -60,6 +60,7 @@ from .solution import (
     Stress,
     StressPeak,
     Summary,
+    Uncertainty,
 )
 from .solver import Solver, SpringPoints, SpringTable, solve
 from .sweeping import Columns, sweep
@@ -108,6 +109,7 @@ __all__ = [
     "Stress",
     "StressPeak",
     "Summary",
+    "Uncertainty",
     "Wedge",
     "contact_modulus",
     "errors",

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -476,11 +477,11 @@ class Spline(Body):
     ----------
     points : array_like, shape (n, 2)
         Rows of x and y, lengths, in order of rising x.
-    noise : float
-        Standard deviation of the heights: a length. The smoothest of all curves at this distance
-        from the points is taken; with 0 the curve goes through the points. A tenth too much is
-        better than a tenth too little: with much less than half of the true noise the curve follows
-        the noise, and touches in many places.
+    smooth : bool
+        True to smooth the points; by default the curve goes through them. The noise of the
+        measurement and the smoothing that it requires are estimated from the points. Noise means
+        heights that are off independently of each other: roughness that neighbouring points share
+        is part of the body, and is kept.
     outliers : float or None
         Distance from the cubic through its neighbours at which a point is refused, in standard
         deviations; None disables the check.
@@ -491,43 +492,65 @@ class Spline(Body):
         One of `SplineTooFewError`, `SplineOutlierError` and so on, with the row of the faulty
         point, counted from 1.
 
+    Notes
+    -----
+    `Solution.uncertainty` returns what the noise leaves open in a contact. A smoothed spline that
+    is placed is fitted again to the placed points, which must be in order of x there, too.
+
+    Some dozens of points may not tell noise from body: the curve then goes through the points, and
+    the noise is found to be next to nothing.
+
     Examples
     --------
     >>> import numpy as np
     >>> import linecontact as lc
-    >>> x = np.linspace(-1, 1, 81)
-    >>> body = lc.Spline(np.column_stack([x, x**2 / 2]), noise=1e-7)
-    >>> abs(lc.solve(lc.Flat(), body, kappa=1.0, load=0.02).a / 0.2 - 1) < 1e-4
+    >>> x = np.linspace(-1, 1, 401)
+    >>> heights = x**2 / 2 + 1e-5 * np.random.RandomState(1).normal(size=x.size)
+    >>> body = lc.Spline(np.column_stack([x, heights]), smooth=True)
+    >>> abs(body.noise / 1e-5 - 1) < 0.1
+    True
+    >>> abs(lc.solve(lc.Flat(), body, kappa=1.0, load=0.02).half_width / 0.2 - 1) < 1e-3
     True
     """
 
     def __init__(
-        self, points: npt.ArrayLike, noise: float = 0.0, outliers: float | None = 10.0
+        self, points: npt.ArrayLike, *, smooth: bool = False, outliers: float | None = 10.0
     ) -> None:
         rows = as_numbers(points, "points").copy()
         if rows.ndim != 2 or rows.shape[1] != 2:
             raise ValueError(f"points of shape {rows.shape}: give rows of x and y, of shape (n, 2)")
         rows.setflags(write=False)
-        self.points, self.noise = rows, as_number(noise, "noise")
+        self.points, self.smooth = rows, smooth
         self.outliers = None if outliers is None else as_number(outliers, "outliers")
-        self._profile = _native.Profile.spline(rows, self.noise, self.outliers)
+        self._profile = _native.Profile.spline(rows, smooth, self.outliers)
+
+    @property
+    def noise(self) -> float:
+        """Standard deviation of the heights, as estimated by the fit: a length.
+
+        It is 0 for a curve through its points.
+        """
+        return self._profile.noise
 
     def _arguments(self) -> tuple[Any, ...]:
-        return self.points, self.noise, self.outliers
+        return self.points, self.smooth, self.outliers
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return partial(type(self), smooth=self.smooth, outliers=self.outliers), (self.points,)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Spline):
             return False if isinstance(other, Body) else NotImplemented
         same = np.array_equal(self.points, other.points)
-        return same and (self.noise, self.outliers) == (other.noise, other.outliers)
+        return same and (self.smooth, self.outliers) == (other.smooth, other.outliers)
 
     def __hash__(self) -> int:
-        return hash((self.points.tobytes(), self.noise, self.outliers))
+        return hash((self.points.tobytes(), self.smooth, self.outliers))
 
     def __repr__(self) -> str:
         x = self.points[:, 0]
         return (
-            f"Spline(<{len(x)} points from x = {x[0]:g} to {x[-1]:g}>, noise={self.noise}, "
+            f"Spline(<{len(x)} points from x = {x[0]:g} to {x[-1]:g}>, smooth={self.smooth}, "
             f"outliers={self.outliers})"
         )
 

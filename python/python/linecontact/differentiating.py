@@ -93,6 +93,8 @@ def gradient(
     scene, it is the derivative of one of them, and not necessarily of the same one for each
     parameter.
 
+    Derivatives by a placement of a smoothed `Spline` are for unchanged smoothing.
+
     A derivative by the place where two parts of a body meet moves the end of one part only: change
     both ends by a mapping, or a gap opens between the parts.
 

@@ -1020,6 +1020,18 @@ class NoLoadDerivativeError(EvaluationError):
     why: str
 
 
+class NoUncertaintyError(EvaluationError):
+    """The uncertainty by the noise of measured points is not known.
+
+    Attributes
+    ----------
+    why : str
+        Reason, for the message.
+    """
+
+    why: str
+
+
 class LengthMismatchError(EvaluationError):
     """The number of places for pressures is not the number of abscissae.
 
@@ -1363,18 +1375,6 @@ class SplineOutlierError(InputError):
     deviations: float
 
 
-class SplineNoiseError(InputError):
-    """The noise is negative, NaN or infinite.
-
-    Attributes
-    ----------
-    noise : float
-        The noise as given.
-    """
-
-    noise: float
-
-
 class SplineLimitError(InputError):
     """The limit for outliers is not positive.
 
@@ -1385,22 +1385,6 @@ class SplineLimitError(InputError):
     """
 
     deviations: float
-
-
-class SplineNothingLeftError(InputError):
-    """A straight line is as close to the points as the noise allows, or is expected to be nearer to
-    the body than any curve.
-
-    Attributes
-    ----------
-    noise : float
-        The noise as given.
-    line : float
-        Root mean square distance of the points from the line.
-    """
-
-    noise: float
-    line: float
 
 
 class SplineOverflowError(InputError):
@@ -1419,18 +1403,6 @@ class SplineOverflowError(InputError):
     row: int
     x: float
     before: float
-
-
-class SplineSmoothingError(InputError):
-    """No smoothing was found for the noise: the squares of the numbers overflow.
-
-    Attributes
-    ----------
-    source : SearchError
-        Error of the search for the smoothing.
-    """
-
-    source: SearchError
 
 
 class SearchBracketError(SearchError):

@@ -30,6 +30,7 @@ __all__ = [
     "Stress",
     "StressPeak",
     "Summary",
+    "Uncertainty",
 ]
 
 Prescribed = tuple[str, list[float], "References | None"]
@@ -79,6 +80,25 @@ class StressPeak(NamedTuple):
     x: float
     depth: float
     value: float
+
+
+class Uncertainty(NamedTuple):
+    """Standard deviations that the noise of measured points leaves in a contact under its load.
+
+    Attributes
+    ----------
+    a, b : float
+        Standard deviations of the limits: lengths.
+    half_width : float
+        Standard deviation of the half-width: a length.
+    peak_pressure : float
+        Standard deviation of the largest pressure: a pressure.
+    """
+
+    a: float
+    b: float
+    half_width: float
+    peak_pressure: float
 
 
 class Approach(NamedTuple):
@@ -470,6 +490,36 @@ class Solution:
     def cost(self) -> Cost:
         """Cost of finding the limits."""
         return Cost(*self._found.cost)
+
+    def uncertainty(self) -> Uncertainty:
+        """Returns the standard deviations that the noise of measured points leaves in the contact.
+
+        They are for bodies by `Spline` with `smooth=True`, and 0 for exact bodies. Compare
+        `limits_error`, the numerical error for the bodies as given.
+
+        Returns
+        -------
+        Uncertainty
+            Standard deviations of limits and half-width, lengths, and of the largest pressure.
+
+        Raises
+        ------
+        linecontact.errors.NoUncertaintyError
+            For several contacts. Other errors are those of `load_rates` and `peak`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import linecontact as lc
+        >>> x = np.linspace(-1, 1, 401)
+        >>> heights = x**2 / 2 + 1e-5 * np.random.RandomState(1).normal(size=x.size)
+        >>> body = lc.Spline(np.column_stack([x, heights]), smooth=True)
+        >>> solution = lc.solve(lc.Flat(), body, kappa=1.0, load=0.02)
+        >>> off = solution.half_width - 0.2  # sqrt(2 F R/κ) of the parabola
+        >>> abs(off) < 3 * solution.uncertainty().half_width < 1e-3
+        True
+        """
+        return Uncertainty(*self._found.uncertainty())
 
     def steepest_slope(self) -> float:
         """Returns the largest slope of either surface in the contacts before loading: no unit."""
