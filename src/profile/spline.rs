@@ -22,13 +22,13 @@ use std::sync::Arc;
 /// ```
 /// use linecontact::profile::{Fit, Spline};
 ///
-/// // A parabola, in steps of 2e-6.
-/// let height = |x: f64| (x * x / 2.0 / 2e-6).round() * 2e-6;
+/// // A parabola, in steps of 2.3e-6.
+/// let height = |x: f64| (x * x / 2.0 / 2.3e-6).round() * 2.3e-6;
 /// let points: Vec<_> = (-100..=100).map(|i| 0.01 * f64::from(i)).map(|x| [x, height(x)]).collect();
 /// let smooth = Spline::fitted(&points, Fit { smooth: true, ..Fit::default() })?;
 /// # use linecontact::ParametricProfile;
 /// assert!((smooth.slope_at(0.3).unwrap() - 0.3).abs() < 1e-5);
-/// assert!((smooth.noise() / 0.58e-6 - 1.0).abs() < 0.3); // 2e-6/sqrt(12)
+/// assert!((smooth.noise() / 0.66e-6 - 1.0).abs() < 0.1); // 2.3e-6/sqrt(12)
 /// # Ok::<(), linecontact::profile::SplineError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,8 +199,8 @@ impl<T: Real> Spline<T> {
 
     /// Places the body: moved, mirrored, flipped, turned or scaled.
     ///
-    /// The uncertainty of a smoothed spline is lost. To keep it, place the points before the fit, by
-    /// [`Placement::apply`].
+    /// The uncertainty of a smoothed spline is lost. To keep it, place the points before the fit,
+    /// by [`Placement::apply`].
     ///
     /// ```
     /// use linecontact::profile::{Parabola, Placement, Spline};

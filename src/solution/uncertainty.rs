@@ -18,8 +18,9 @@ const PLACES_PER_BREAKPOINT: usize = 4;
 /// δP(x) = κ/(π² w(x)) PV∫ w(s) δ(s)/(s - x) ds,    w(x) = sqrt((x + b)(a - x))
 /// ```
 ///
-/// (Johnson, *Contact Mechanics*, 1985, §2.7). The singularities that this leaves at the limits move
-/// them, in proportion to their [derivatives by the load](LoadRates), so that with `s = c + L cos θ`
+/// (Johnson, *Contact Mechanics*, 1985, §2.7). The singularities that this leaves at the limits
+/// move them, in proportion to their [derivatives by the load](LoadRates), so that with
+/// `s = c + L cos θ`
 ///
 /// ```text
 /// δa = -(κ L/π) da/dF ∫ δ (1 + cos θ) dθ,    δb = (κ L/π) db/dF ∫ δ (1 - cos θ) dθ
