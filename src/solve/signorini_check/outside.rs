@@ -19,6 +19,10 @@ const SAMPLED_BEYOND: f64 = 0.002;
 /// Largest difference of heights and slopes on the rise over a contact, as a share of F/κ.
 const STEP: f64 = 0.01;
 
+/// Smallest gap at a distance s from a limit, as a share of s times its slope; a lower gap has
+/// opened late, and may be closed in between.
+const LEAST_OPENING: f64 = 0.4;
+
 /// Largest number of refinements of the survey for one check.
 const MAX_ROUNDS: usize = 40;
 
@@ -132,7 +136,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         for _ in 0..MAX_ROUNDS {
             let [first, last] = corners;
             let lows = look.low_points().filter_map(within);
-            let lows = lows.flat_map(|low| self.outside(look, low)).flatten().filter(is_new);
+            let lows = lows.flat_map(|low| self.outside(look, low)).filter(is_new);
             let heights = first.into_iter().chain(lows).chain(last);
             open.clear();
             let is_hidden = self.overlap_at(fields, look, heights, [dips, &mut open], cost)?;
@@ -175,21 +179,27 @@ impl<T: Real> SignoriniCheck<'_, T> {
         compare([before, after], T::zero())
     }
 
-    /// Returns a low place as it is; inside a contact, the middles of the parts of its span
-    /// outside.
-    fn outside(&self, look: &Survey<T>, low: LowPoint<T>) -> [Option<LowPoint<T>>; 2] {
+    /// Returns a height at a place as it is, and a span without what lies in contacts.
+    fn outside<'s>(
+        &'s self,
+        look: &'s Survey<T>,
+        low: LowPoint<T>,
+    ) -> impl Iterator<Item = LowPoint<T>> + use<'s, T> {
         let contacts = self.contacts();
-        let on = contacts.get(contacts.partition_point(|on| on.right <= low.x));
-        let (Some(on), Some([from, to])) = (on.filter(|on| on.left <= low.x), low.between) else {
-            return [Some(low), None];
-        };
-        // At a limit the opening slope decides.
-        let limit = |x: T| [x, T::one() / T::zero(), T::zero()];
-        [[from, limit(on.left)], [limit(on.right), to]].map(|[from, to]| {
-            let x = T::of(0.5) * (from[0] + to[0]);
-            let height = || self.gap.turned(x, look.height(x));
+        let [first, after] = low.between.map_or([0, 0], |[from, to]| {
+            let first = contacts.partition_point(|on| on.right <= from[0]);
+            [first, first + contacts[first..].partition_point(|on| on.left < to[0])]
+        });
+        let limit = |x: T| [x, self.gap.turned(x, look.height(x)), T::zero()];
+        (first..=after).filter_map(move |i| {
+            let Some([from, to]) = low.between.filter(|_| first < after) else { return Some(low) };
+            let from = if i == first { from } else { limit(contacts[i - 1].right) };
+            let to = if i == after { to } else { limit(contacts[i].left) };
+            let is_inside = from[0] < low.x && low.x < to[0];
+            let x = if is_inside { low.x } else { T::of(0.5) * (from[0] + to[0]) };
+            let height = if is_inside { low.height } else { self.gap.turned(x, look.height(x)) };
             let between = Some([from, to]);
-            (from[0] < to[0]).then(|| LowPoint { x, height: height(), between, ..low })
+            (from[0] < to[0]).then_some(LowPoint { x, height, between, ..low })
         })
     }
 
@@ -293,8 +303,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             return Some((x, verdict));
         };
-        let verdict = judged(self.floor(fields, [x, height], ends, rate));
-        if !matches!(verdict, Verdict::Overlap | Verdict::Hidden) {
+        let at_limit = ends.map(|[end, ..]| from.is_limit(end));
+        let (verdict, is_suspect) = if at_limit == [false; 2] {
+            let verdict = judged(self.floor(fields, [x, height], ends, rate));
+            (verdict, matches!(verdict, Verdict::Overlap | Verdict::Hidden))
+        } else {
+            (judged(height), at_limit != [true; 2] && self.is_flat(fields, from, ends, at_limit[0]))
+        };
+        if !is_suspect {
             return Some((x, verdict));
         }
         // The height so far was a bound, or interpolated.
@@ -313,6 +329,21 @@ impl<T: Real> SignoriniCheck<'_, T> {
             open.extend([[left, right], [from.edge; 2]]);
         }
         Some((x, verdict))
+    }
+
+    /// Tells whether the gap between a limit and the far end of a span is lower than it should be:
+    /// beside a limit it opens as `s^(3/2)` of the distance, and is 2/3 of `s` times its slope.
+    fn is_flat(
+        &self,
+        fields: &ExteriorFields<T>,
+        from: &Beside<T>,
+        ends: [[T; 3]; 2],
+        starts_at_limit: bool,
+    ) -> bool {
+        let [[limit, ..], [far, height, slope]] =
+            if starts_at_limit { ends } else { [ends[1], ends[0]] };
+        let gap = height - from.height - (fields.potential(far) - from.taken) / self.kappa;
+        gap < T::of(LEAST_OPENING) * (slope - self.rate(fields, far)) * (far - limit)
     }
 
     /// Returns a height at a place of a span that represents the lowest loaded gap in it. A
@@ -335,7 +366,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
         };
         let [[left, before, falls], [right, after, rises]] = ends.map(loaded);
         let chord = (after - before) / (right - left);
-        // At a limit the opening slope decides.
         let both = Some([chord - falls, rises - chord]).filter(|_| chord.is_finite());
         let Some([t, below]) = both.and_then(crossing) else { return height };
         before + (right - left) * (t * chord - below)
@@ -467,6 +497,11 @@ struct Beside<T> {
 }
 
 impl<T: Real> Beside<T> {
+    fn is_limit(&self, x: T) -> bool {
+        x == self.room.left && !self.near[0].is_zero()
+            || x == self.room.right && !self.near[1].is_zero()
+    }
+
     /// Tells whether a place is so close to a limit that the pressure inside decides about the gap.
     fn is_near(&self, x: T) -> bool {
         x - self.room.left < self.near[0] || self.room.right - x < self.near[1]
