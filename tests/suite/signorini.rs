@@ -642,6 +642,56 @@ fn add_noise(points: &mut [[f64; 2]], height: f64, correlation: f64, dice: &mut 
     }
 }
 
+impl Measured {
+    /// Returns four places for each point.
+    fn places(&self) -> Vec<f64> {
+        let between = |ends: &[[f64; 2]]| {
+            [0.0, 0.25, 0.5, 0.75].map(|t| ends[0][0] + t * (ends[1][0] - ends[0][0]))
+        };
+        let mut places: Vec<f64> = self.points.windows(2).flat_map(between).collect();
+        places.push(self.points[self.points.len() - 1][0]);
+        places
+    }
+
+    /// Returns a rough parabola with up to hundreds of contacts.
+    fn rough(dice: &mut Dice) -> Self {
+        loop {
+            let count = (500.0 * 20f64.powf(dice.uniform())) as usize;
+            let load = dice.power_of_ten(-3.5, -1.0);
+            let height = load * dice.power_of_ten(-2.5, -0.7);
+            let length = if dice.uniform() < 0.5 { 0.0 } else { dice.within(0.3, 3.0) };
+            // Three points or more, as far as they are correlated, for a contact.
+            if count as f64 * (2.0 * load).sqrt() / (3.0 * length.max(1.0)) > 300.0 {
+                continue;
+            }
+            let places = even(count - 1);
+            let mut points: Vec<[f64; 2]> = places.iter().map(|&x| [x, 0.5 * x * x]).collect();
+            let correlation = if length > 0.0 { (-1.0 / length).exp() } else { 0.0 };
+            add_noise(&mut points, height, correlation, dice);
+            let name = format!("{count} points, load {load:.2e}, {height:.2e}, {length:.2}");
+            return Self { name, points, load };
+        }
+    }
+}
+
+/// A gap between two contacts may open late and close once more before the next measured point.
+#[test]
+fn rough_points_touch_as_bodies_do() {
+    let mut tally = Tally::default();
+    for seed in scenes(2).chain([815]) {
+        let scene = Measured::rough(&mut Dice::new(seed + (1 << 41)));
+        let body = Spline::through(&scene.points).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let height = |x: f64| body.at(x).y;
+        let places = scene.places();
+        let bodies = Bodies { height: &height, kappa: 1.0, places };
+        let wide = || Ok(contact.solve(Control::Load(scene.load))?.intervals().to_vec());
+        let name = format!("{seed} {}", scene.name);
+        tally.take(&name, &contact, &wide, &bodies, scene.load, SPLINES);
+    }
+    tally.finish();
+}
+
 #[test]
 fn measured_points_touch_as_bodies_do() {
     let mut tally = Tally::default();
@@ -675,16 +725,7 @@ fn measured_points_touch_as_bodies_do() {
             Ok(contact.solve(Control::Load(scene.load))?.intervals().to_vec())
         };
         let height = |x: f64| body.at(x).y;
-        // Four between two points.
-        let mut places: Vec<f64> = scene
-            .points
-            .windows(2)
-            .flat_map(|ends| {
-                [0.0, 0.25, 0.5, 0.75].map(|t| ends[0][0] + t * (ends[1][0] - ends[0][0]))
-            })
-            .collect();
-        places.push(scene.points[scene.points.len() - 1][0]);
-        let bodies = Bodies { height: &height, kappa: 1.0, places };
+        let bodies = Bodies { height: &height, kappa: 1.0, places: scene.places() };
         let name = format!("{seed} {}", scene.name);
         tally.take(&name, &contact, &wide, &bodies, scene.load, SPLINES);
     }

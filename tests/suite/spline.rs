@@ -180,15 +180,26 @@ fn the_smoothed_spline_is_the_most_likely() {
         let of = |log: f64| Dense::new(&points, spline.pieces(), log.exp(), &slopes);
         let logs = (-1000..2500).map(|i| 0.01 * f64::from(i));
         let best = logs.min_by(|a, b| of(*a).unlikelihood.total_cmp(&of(*b).unlikelihood));
-        let dense = of(best.unwrap());
+        let best = best.unwrap();
+        let dense = of(best);
         for (&[x, _], height) in points.iter().zip(&dense.heights) {
             assert!((spline.at(x).y - height).abs() < 2e-3 * noise, "{noise}: {x}");
         }
         assert_relative_eq!(spline.noise(), dense.noise, epsilon = 0.0, max_relative = 1e-3);
         assert!((spline.noise() / noise - 1.0).abs() < 0.25, "{noise}: {}", spline.noise());
         let (x, weights): (Vec<f64>, Vec<f64>) = slopes.iter().map(|&[x, w]| (x, w)).unzip();
+        // With the least penalty that is likely, and with that before it, a reach 1.05 times as
+        // long.
+        let mut low = best;
+        while of(low - 0.01).unlikelihood <= dense.unlikelihood + 3.84 {
+            low -= 0.01;
+        }
+        let [most, least] = [0.0, 6.0 * 1.05f64.ln()].map(|more| {
+            let Dense { deviation, noise, .. } = of(low + more);
+            deviation / noise * dense.noise
+        });
         let deviation = spline.slope_deviation(&x, &weights).unwrap();
-        assert_relative_eq!(deviation, dense.deviation, epsilon = 0.0, max_relative = 3e-3);
+        assert!(deviation < 1.003 * most && deviation > 0.997 * least, "{least} {most}");
     }
 }
 
@@ -244,8 +255,14 @@ fn the_exact_contact_lies_within_the_uncertainty() {
     type Shape = dyn Fn(f64) -> [f64; 2] + Sync;
     let shapes: [(&str, &Shape); 2] = [("circle", &circle), ("crowned", &crowned)];
     for (name, shape) in shapes {
-        for (half_width, noise, n) in [(0.02, 1e-5, 1000), (0.1, 1e-4, 300), (0.3, 1e-6, 1000)] {
-            let exact = Curve::new([-0.5, 0.5], |x| {
+        // In the last row the points hardly tell the body from a parabola.
+        for (range, half_width, noise, n) in [
+            (0.5, 0.02, 1e-5, 1000),
+            (0.5, 0.1, 1e-4, 300),
+            (0.5, 0.3, 1e-6, 1000),
+            (0.1, 0.025, 1e-5, 1000),
+        ] {
+            let exact = Curve::new([-range, range], |x| {
                 let [y, dy] = shape(x);
                 CurvePoint { x, y, dx: 1.0, dy }
             });
@@ -255,8 +272,8 @@ fn the_exact_contact_lies_within_the_uncertainty() {
             let (mut within, mut squares) = ([0; 4], [0.0; 4]);
             for seed in 0..40 {
                 let mut random = Shares(seed);
-                let points = even(n, |x| shape(0.5 * x)[0] + noise * random.normal());
-                let points: Vec<_> = points.iter().map(|&[x, y]| [0.5 * x, y]).collect();
+                let points = even(n, |x| shape(range * x)[0] + noise * random.normal());
+                let points: Vec<_> = points.iter().map(|&[x, y]| [range * x, y]).collect();
                 let fit = Fit { smooth: true, ..Fit::default() };
                 let body = Spline::fitted(&points, fit).unwrap();
                 let solution = Contact::new(&Flat, &body).unwrap().solve(Control::Load(load));
@@ -276,7 +293,7 @@ fn the_exact_contact_lies_within_the_uncertainty() {
                 format!("{name}, half-width {half_width}, noise {noise}: {within:?} {squares:.2?}");
             println!("{name}");
             assert!(within.iter().all(|&count| count >= 36), "{name}");
-            assert!(squares.iter().all(|&square| square > 0.1 && square < 1.3), "{name}");
+            assert!(squares.iter().all(|&square| square > 0.05 && square < 1.3), "{name}");
         }
     }
 }

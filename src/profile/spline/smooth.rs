@@ -27,13 +27,18 @@ use crate::Real;
 const FIRST_SPANS: usize = 8;
 
 /// Reach of the smoothing, in spans, from which on finer knots change nothing.
-const RESOLVED: f64 = 2.5;
+const RESOLVED: f64 = 1.5;
 
 /// Least reach of the smoothing, in spans: the curve follows the points.
 const LEAST_REACH: f64 = 0.05;
 
-/// Ratio of successive reaches tried.
+/// Ratio of successive reaches tried, for the most likely and for the least of the likely ones.
 const STEP: f64 = 1.5;
+const FINE_STEP: f64 = 1.05;
+
+/// Rise of -2 ln L from its minimum within which a reach is likely: 95 % of the probability (χ² with
+/// one degree of freedom).
+const LIKELY: f64 = 3.84;
 
 /// Number of steps of the golden section; the likelihood is flat, and a thousandth is enough.
 const SECTIONS: usize = 12;
@@ -149,9 +154,11 @@ impl<T: Real> Fitting<T> {
             - T::count(self.spans) * alpha.ln()
     }
 
-    /// Finds the most likely reach, on a grid and then by golden section in its logarithm.
-    fn reach(&self) -> T {
-        let (step, most) = (T::of(STEP), T::count(self.spans));
+    /// Finds the least of the likely reaches and the most likely, on a grid and then by golden
+    /// section in its logarithm.
+    fn reaches(&self) -> [T; 2] {
+        let [step, fine] = [STEP, FINE_STEP].map(T::of);
+        let most = T::count(self.spans);
         let mut reach = T::of(LEAST_REACH);
         let (mut best, mut least) = (reach, self.unlikelihood(reach));
         while reach < most {
@@ -177,7 +184,13 @@ impl<T: Real> Fitting<T> {
                 found = [found[1], at(places[1])];
             }
         }
-        (T::of(0.5) * (from + to)).exp()
+        let best = (T::of(0.5) * (from + to)).exp();
+        let allowed = found[0].min(found[1]) + T::of(LIKELY);
+        let mut low = best;
+        while low > T::of(LEAST_REACH) && self.unlikelihood(low / fine) <= allowed {
+            low /= fine;
+        }
+        [low, best]
     }
 }
 
@@ -186,6 +199,8 @@ impl<T: Real> Fitting<T> {
 pub(super) struct Smooth<T> {
     ends: [T; 2],
     spans: usize,
+    /// Equations with the least penalty that is likely: a stronger one could hide how the body
+    /// departs from a parabola.
     triangle: Triangle<T>,
     /// Standard deviation of the heights.
     pub noise: T,
@@ -208,21 +223,22 @@ impl<T: Real> Smooth<T> {
         let size = if size.is_zero() { T::one() } else { size };
         rest.iter_mut().for_each(|point| point[1] /= size);
         let mut fitting = Fitting::new(&rest, FIRST_SPANS.min(points.len() - 1));
-        let mut reach = fitting.reach();
-        while reach < T::of(RESOLVED) && fitting.spans < points.len() {
+        let mut reaches = fitting.reaches();
+        while reaches[0] < T::of(RESOLVED) && fitting.spans < points.len() {
             fitting = Fitting::new(&rest, 2 * fitting.spans);
-            reach = fitting.reach();
+            reaches = fitting.reaches();
         }
-        let (spans, triangle) = (fitting.spans, fitting.penalised(fitting.alpha(reach)));
+        let spans = fitting.spans;
+        let [triangle, best] = reaches.map(|reach| fitting.penalised(fitting.alpha(reach)));
         let span = length / T::count(spans);
-        let noise = size * (triangle.rest / T::count(points.len() - FREE)).sqrt();
+        let noise = size * (best.rest / T::count(points.len() - FREE)).sqrt();
         let knot = |(i, c): (usize, &[T])| {
             let height = size * ((c[0] + T::of(4.0) * c[1] + c[2]) / T::of(6.0));
             let line = start + (end - start) * (T::count(i) / T::count(spans));
             let slope = size * (T::of(0.5) * (c[2] - c[0]));
             [height + line, (slope + (end - start) / T::count(spans)) / span]
         };
-        let knots = triangle.solve().windows(3).enumerate().map(knot).collect();
+        let knots = best.solve().windows(3).enumerate().map(knot).collect();
         Self { ends: [from, to], spans, triangle, noise, knots }
     }
 
