@@ -2,6 +2,7 @@
 //! corners.
 
 use super::SignoriniCheck;
+use super::beside::{Beside, Verdict};
 use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
 use crate::quadrature::panels::{self, Rises};
 use crate::solve::exterior_field::ExteriorFields;
@@ -188,9 +189,10 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let contacts = self.contacts();
         let [first, after] = low.between.map_or([0, 0], |[from, to]| {
             let first = contacts.partition_point(|on| on.right <= from[0]);
-            [first, first + contacts[first..].partition_point(|on| on.left < to[0])]
+            [first, first + contacts[first..].iter().take_while(|on| on.left < to[0]).count()]
         });
-        let limit = |x: T| [x, self.gap.turned(x, look.height(x)), T::zero()];
+        // No height: at a limit the loaded gap is zero.
+        let limit = |x: T| [x, T::zero(), T::zero()];
         (first..=after).filter_map(move |i| {
             let Some([from, to]) = low.between.filter(|_| first < after) else { return Some(low) };
             let from = if i == first { from } else { limit(contacts[i - 1].right) };
@@ -475,46 +477,4 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let is_open = gap >= -(allowed + from.doubt) || !is_sound;
         Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
     }
-}
-
-/// Region between two contacts, or beyond the outermost ones.
-#[derive(Clone, Copy)]
-struct Beside<T> {
-    /// Number of the contact on its right.
-    next: usize,
-    room: Interval<T>,
-    /// Limit from which heights are counted.
-    edge: T,
-    /// Distances from the left and the right limit within which the gap opens by the pressure
-    /// inside.
-    near: [T; 2],
-    /// Height of the gap at this limit, its uncertainty, and the potential there.
-    height: T,
-    hidden: T,
-    taken: T,
-    /// Uncertainty of the gap due to the series of the pressures.
-    doubt: T,
-}
-
-impl<T: Real> Beside<T> {
-    fn is_limit(&self, x: T) -> bool {
-        x == self.room.left && !self.near[0].is_zero()
-            || x == self.room.right && !self.near[1].is_zero()
-    }
-
-    /// Tells whether a place is so close to a limit that the pressure inside decides about the gap.
-    fn is_near(&self, x: T) -> bool {
-        x - self.room.left < self.near[0] || self.room.right - x < self.near[1]
-    }
-}
-
-/// Verdict on the gap between the loaded bodies.
-#[derive(Clone, Copy, PartialEq, Debug)]
-enum Verdict {
-    Apart,
-    /// Overlap, if any, within the uncertainty of the series of the pressures.
-    Unresolved,
-    /// Overlap, if any, within the uncertainty of the survey.
-    Hidden,
-    Overlap,
 }
