@@ -4,7 +4,6 @@
 //! g' with a kernel that is nowhere negative. Otherwise pressures are evaluated. Outside, the gap
 //! between the loaded bodies is evaluated where their heights are known.
 
-mod beside;
 mod outside;
 mod passed;
 mod step;

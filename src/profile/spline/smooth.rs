@@ -36,8 +36,8 @@ const LEAST_REACH: f64 = 0.05;
 const STEP: f64 = 1.5;
 const FINE_STEP: f64 = 1.05;
 
-/// Rise of -2 ln L from its minimum within which a reach is likely: 95 % of the probability (χ² with
-/// one degree of freedom).
+/// Rise of -2 ln L from its minimum within which a reach is likely: 95 % of the probability, by χ²
+/// with one degree of freedom.
 const LIKELY: f64 = 3.84;
 
 /// Number of steps of the golden section; the likelihood is flat, and a thousandth is enough.

@@ -2,7 +2,6 @@
 //! corners.
 
 use super::SignoriniCheck;
-use super::beside::{Beside, Verdict};
 use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
 use crate::quadrature::panels::{self, Rises};
 use crate::solve::exterior_field::ExteriorFields;
@@ -19,10 +18,6 @@ const SAMPLED_BEYOND: f64 = 0.002;
 
 /// Largest difference of heights and slopes on the rise over a contact, as a share of F/κ.
 const STEP: f64 = 0.01;
-
-/// Smallest gap at a distance s from a limit, as a share of s times its slope; a lower gap has
-/// opened late, and may be closed in between.
-const LEAST_OPENING: f64 = 0.4;
 
 /// Largest number of refinements of the survey for one check.
 const MAX_ROUNDS: usize = 40;
@@ -191,8 +186,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let first = contacts.partition_point(|on| on.right <= from[0]);
             [first, first + contacts[first..].iter().take_while(|on| on.left < to[0]).count()]
         });
-        // No height: at a limit the loaded gap is zero.
-        let limit = |x: T| [x, T::zero(), T::zero()];
+        // At a limit the opening slope decides.
+        let limit = |x: T| [x, T::one() / T::zero(), T::zero()];
         (first..=after).filter_map(move |i| {
             let Some([from, to]) = low.between.filter(|_| first < after) else { return Some(low) };
             let from = if i == first { from } else { limit(contacts[i - 1].right) };
@@ -305,14 +300,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             return Some((x, verdict));
         };
-        let at_limit = ends.map(|[end, ..]| from.is_limit(end));
-        let (verdict, is_suspect) = if at_limit == [false; 2] {
-            let verdict = judged(self.floor(fields, [x, height], ends, rate));
-            (verdict, matches!(verdict, Verdict::Overlap | Verdict::Hidden))
-        } else {
-            (judged(height), at_limit != [true; 2] && self.is_flat(fields, from, ends, at_limit[0]))
-        };
-        if !is_suspect {
+        let verdict = judged(self.floor(fields, [x, height], ends, rate));
+        if !matches!(verdict, Verdict::Overlap | Verdict::Hidden) {
             return Some((x, verdict));
         }
         // The height so far was a bound, or interpolated.
@@ -331,21 +320,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
             open.extend([[left, right], [from.edge; 2]]);
         }
         Some((x, verdict))
-    }
-
-    /// Tells whether the gap between a limit and the far end of a span is lower than it should be:
-    /// beside a limit it opens as `s^(3/2)` of the distance, and is 2/3 of `s` times its slope.
-    fn is_flat(
-        &self,
-        fields: &ExteriorFields<T>,
-        from: &Beside<T>,
-        ends: [[T; 3]; 2],
-        starts_at_limit: bool,
-    ) -> bool {
-        let [[limit, ..], [far, height, slope]] =
-            if starts_at_limit { ends } else { [ends[1], ends[0]] };
-        let gap = height - from.height - (fields.potential(far) - from.taken) / self.kappa;
-        gap < T::of(LEAST_OPENING) * (slope - self.rate(fields, far)) * (far - limit)
     }
 
     /// Returns a height at a place of a span that represents the lowest loaded gap in it. A
@@ -368,6 +342,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         };
         let [[left, before, falls], [right, after, rises]] = ends.map(loaded);
         let chord = (after - before) / (right - left);
+        // At a limit the opening slope decides.
         let both = Some([chord - falls, rises - chord]).filter(|_| chord.is_finite());
         let Some([t, below]) = both.and_then(crossing) else { return height };
         before + (right - left) * (t * chord - below)
@@ -477,4 +452,41 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let is_open = gap >= -(allowed + from.doubt) || !is_sound;
         Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
     }
+}
+
+/// Region between two contacts, or beyond the outermost ones.
+#[derive(Clone, Copy)]
+struct Beside<T> {
+    /// Number of the contact on its right.
+    next: usize,
+    room: Interval<T>,
+    /// Limit from which heights are counted.
+    edge: T,
+    /// Distances from the left and the right limit within which the gap opens by the pressure
+    /// inside.
+    near: [T; 2],
+    /// Height of the gap at this limit, its uncertainty, and the potential there.
+    height: T,
+    hidden: T,
+    taken: T,
+    /// Uncertainty of the gap due to the series of the pressures.
+    doubt: T,
+}
+
+impl<T: Real> Beside<T> {
+    /// Tells whether a place is so close to a limit that the pressure inside decides about the gap.
+    fn is_near(&self, x: T) -> bool {
+        x - self.room.left < self.near[0] || self.room.right - x < self.near[1]
+    }
+}
+
+/// Verdict on the gap between the loaded bodies.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Verdict {
+    Apart,
+    /// Overlap, if any, within the uncertainty of the series of the pressures.
+    Unresolved,
+    /// Overlap, if any, within the uncertainty of the survey.
+    Hidden,
+    Overlap,
 }
