@@ -242,6 +242,23 @@ def test_pandas() -> None:
     frame = lc.sweep(ROLLER, load=[100.0, -1.0]).to_pandas()
     assert list(frame.columns) == ["load", "a", "b", "peak_pressure", "error"]
     assert frame["error"].tolist() == ["", "InvalidLoadError"] and frame["a"].isna().tolist() == [False, True]
+    assert frame["load"].tolist() == [100.0, -1.0]
+
+
+def test_frames_have_columns_of_parameters() -> None:
+    pytest.importorskip("pandas")
+    found = lc.sweep(ROLLER, load=[100.0, 200.0], quantities=("a",))
+    frame = found.to_pandas(radius=10.0, name=["light", "heavy"])
+    assert list(frame.columns) == ["radius", "name", "a", "error"]
+    assert frame["radius"].tolist() == [10.0, 10.0] and frame["name"].tolist() == ["light", "heavy"]
+    with pytest.raises(ValueError, match="shape"):
+        found.to_pandas(radius=[1.0, 2.0, 3.0])
+
+
+def test_a_failed_row_keeps_what_was_prescribed() -> None:
+    found = lc.sweep(ROLLER, half_width=[0.1, 99.0], quantities=("half_width", "load"))
+    assert found["error"].tolist() == ["", "HalfWidthTooLargeError"]
+    assert found["half_width"][1] == 99.0 and math.isnan(found["load"][1])
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timers")

@@ -59,13 +59,31 @@ class Columns(dict[str, npt.NDArray[Any]]):
         failed = f", {len(self.errors)} failed" if self.errors else ""
         return f"<Columns: {rows} rows of {', '.join(self)}{failed}>"
 
-    def to_pandas(self) -> DataFrame:
-        """Returns the columns as a data frame of pandas, if pandas is installed."""
+    def to_pandas(self, **parameters: npt.ArrayLike) -> DataFrame:
+        """Returns the columns as a data frame of pandas, if pandas is installed.
+
+        Parameters
+        ----------
+        **parameters : array_like
+            Further columns, before those of the sweep: parameters of the scenes, say, as numbers or
+            as arrays with one entry for each row.
+
+        Examples
+        --------
+        >>> import linecontact as lc
+        >>> radii = [10.0, 20.0]
+        >>> rollers = [lc.Contact(lc.Flat(), lc.Parabola(r, (-1.0, 1.0)), kappa=1.0) for r in radii]
+        >>> frame = lc.sweep(rollers, load=[2e-3, -1.0]).to_pandas(radius=radii)
+        >>> frame[["radius", "load", "error"]].to_dict("list")
+        {'radius': [10.0, 20.0], 'load': [0.002, -1.0], 'error': ['', 'InvalidLoadError']}
+        """
         try:
             from pandas import DataFrame
         except ImportError as missing:
             raise ImportError("to_pandas() needs pandas: pip install pandas") from missing
-        return DataFrame(dict(self))
+        rows = len(self["error"])
+        columns = {name: np.broadcast_to(np.asarray(values), (rows,)) for name, values in parameters.items()}
+        return DataFrame({**columns, **self})
 
 
 def sweep(
@@ -110,7 +128,8 @@ def sweep(
     -------
     Columns
         A dict of arrays: the quantities, and "error" with the name of the error of each row, "" if
-        it has not failed. Missing numbers are NaN.
+        it has not failed. A row that has failed keeps the quantities that were prescribed; its
+        other numbers are NaN.
 
     Notes
     -----
@@ -181,6 +200,8 @@ def sweep(
     found["error"] = np.full(rows, "", dtype=object)
     for row, error in errors.items():
         found["error"][row] = type(error).__name__
+        for name in found.keys() & numbers.keys():
+            found[name][row] = np.broadcast_to(numbers[name], (rows,))[row]
     return Columns(found, errors)
 
 
