@@ -277,6 +277,12 @@ def test_titles_and_names_are_words(tmp_path: Path) -> None:
     assert "{{data}} \\1" in page.read_text(encoding="utf-8")
 
 
+def test_bodies_are_named_without_addresses(tmp_path: Path) -> None:
+    curve = lc.Curve((-1, 1), lambda k: (k, k * k / 2, np.ones_like(k), k))
+    page = lc.explore(lc.Contact(FLAT, curve, kappa=1.0), 0.02, tmp_path / "page.html")
+    assert " at 0x" in repr(curve) and " at 0x" not in read(page)["bodies"]["upper"]
+
+
 def test_the_page_is_small(tmp_path: Path) -> None:
     contact = CONTACTS["hertz"][0]
     loads = np.linspace(0.001, 0.02, 6)

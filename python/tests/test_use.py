@@ -414,6 +414,13 @@ def test_heights_of_a_place_that_is_met_at_once() -> None:
     np.testing.assert_allclose(BODY.heights([0.0, 1e-150, -2e-150]), [0.0, 5e-301, 2e-300], rtol=1e-12)
 
 
+def test_axes_show_units() -> None:
+    figure = lc.solve(FLAT, BODY, kappa=1.0, load=0.01).plot(units=("mm", "MPa"))
+    labels = [axes.get_ylabel() for axes in figure.axes]
+    assert labels == ["y before loading / mm", "pressure / MPa", "depth / mm", "largest shear / MPa"]
+    assert figure.axes[2].get_xlabel() == "x / mm"
+
+
 def test_drawn_bodies_just_touch() -> None:
     roller = lc.Ellipse.circle(10.0, (-1.0, 1.0)).shifted(0.0, 5.0)
     figure = lc.solve(lc.Line(0.0, (-3, 3)).rotated(0.0), roller, kappa=1.0, load=0.01).plot()

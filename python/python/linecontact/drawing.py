@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.figure import Figure
 
     from ._numbers import FloatArray
@@ -61,8 +63,9 @@ def before_loading(
     return lower, upper - touching if np.isfinite(touching) else upper
 
 
-def plot(solution: Solution) -> Figure:
+def plot(solution: Solution, units: Sequence[str]) -> Figure:
     """Draws bodies, pressure and subsurface shear, one below the other over the same x."""
+    lengths, pressures = (f" / {unit}" if unit else "" for unit in units)
     try:
         from matplotlib.figure import Figure
     except ImportError as missing:
@@ -76,7 +79,7 @@ def plot(solution: Solution) -> Figure:
     lower, upper = before_loading(contact, x, solution.tilt)
     bodies.plot(x, upper, color="#08519c", label="upper body")
     bodies.plot(x, lower, color="#a63603", label="lower body")
-    bodies.set_ylabel("y before loading")
+    bodies.set_ylabel(f"y before loading{lengths}")
     bodies.legend(loc="best")
     bodies.set_title(str(solution).splitlines()[0])
 
@@ -86,7 +89,7 @@ def plot(solution: Solution) -> Figure:
         pressure.fill_between(places[inside], values[inside], color="#9ecae1")
         pressure.plot(places[inside], values[inside], color="#08519c")
     pressure.set_ylim(bottom=min(0.0, float(np.min(values, initial=0.0))))
-    pressure.set_ylabel("pressure")
+    pressure.set_ylabel(f"pressure{pressures}")
 
     # The depths start below the surface, where the pressure may be infinite. The places are denser
     # below each contact, and the depths start nearer to the surface where contacts are narrow.
@@ -97,8 +100,8 @@ def plot(solution: Solution) -> Figure:
     across = np.unique(np.concatenate([np.linspace(x[0], x[-1], _COLUMNS), *below_each]))
     shear = solution.stress(across[None, :], depth[:, None]).max_shear()
     drawn = below.contourf(across, depth, shear, levels=12, cmap="cividis")
-    figure.colorbar(drawn, ax=below, label="largest shear")
+    figure.colorbar(drawn, ax=below, label=f"largest shear{pressures}")
     below.invert_yaxis()
-    below.set_ylabel("depth")
-    below.set_xlabel("x")
+    below.set_ylabel(f"depth{lengths}")
+    below.set_xlabel(f"x{lengths}")
     return figure

@@ -332,7 +332,7 @@ def _base64(array: npt.NDArray[Any]) -> str:
 
 
 def _words(body: Body) -> str:
-    words = repr(body)
+    words = re.sub(" at 0x[0-9a-f]+", "", repr(body))
     return words if len(words) <= _WORDS else words[: _WORDS - 1] + "…"
 
 

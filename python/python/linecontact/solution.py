@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
 import numpy as np
@@ -799,10 +799,16 @@ class Solution:
 
         return svg(self)
 
-    def plot(self) -> Figure:
+    def plot(self, units: Sequence[str] = ("", "")) -> Figure:
         """Draws both bodies before loading, the pressure, and the shear below it.
 
         It needs matplotlib.
+
+        Parameters
+        ----------
+        units : (str, str), optional
+            Names of the units of lengths and pressures, to be shown at the axes, such as ("mm",
+            "MPa").
 
         Returns
         -------
@@ -817,7 +823,7 @@ class Solution:
         """
         from .drawing import plot
 
-        return plot(self)
+        return plot(self, units)
 
 
 class PartialSlip:
