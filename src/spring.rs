@@ -40,8 +40,8 @@ pub struct SpringPoint<T> {
     pub load: T,
     /// [Stiffness](Solution::stiffness) dF/dδ: a pressure.
     pub stiffness: T,
-    /// Half-width L; for several contacts, half the sum of their widths: a length.
-    pub half_width: T,
+    /// Half the length in contact: the half-width L, or half the sum of all widths; a length.
+    pub half_contact: T,
     /// Largest pressure p₀; `None` if it is infinite, at a corner.
     pub peak: Option<T>,
 }
@@ -94,8 +94,8 @@ fn checked<'de, T: Real + serde::Deserialize<'de>, D: serde::Deserializer<'de>>(
     let points = <Vec<Node<T>> as serde::Deserialize>::deserialize(file)?;
     let positive = |value: T| value > T::zero() && value.is_finite();
     let is_state = |Node { point, exponents }: &Node<T>| {
-        let SpringPoint { approach, load, stiffness, half_width, peak } = *point;
-        [approach, load, stiffness, half_width].into_iter().all(positive)
+        let SpringPoint { approach, load, stiffness, half_contact, peak } = *point;
+        [approach, load, stiffness, half_contact].into_iter().all(positive)
             && peak.is_none_or(positive)
             && exponents.iter().all(|exponent| exponent.is_finite())
     };
@@ -215,8 +215,8 @@ fn node<T: Real>(
         return Err(SolveError::ApproachFalls { load, rate }.into());
     }
     let rates = solution.load_rates()?;
-    let half_widths = solution.intervals().iter().map(Interval::half_width);
-    let half_width = half_widths.fold(T::zero(), |sum, half_width| sum + half_width);
+    let halves = solution.intervals().iter().map(Interval::half_width);
+    let half_contact = halves.fold(T::zero(), |sum, half_contact| sum + half_contact);
     let widening = rates.limits.iter().map(|rates| T::of(0.5) * (rates.right - rates.left));
     let widening = widening.fold(T::zero(), |sum, rate| sum + rate);
     let (peak, growth) = match solution.peak() {
@@ -226,8 +226,9 @@ fn node<T: Real>(
     };
     let stiffness = T::one() / rate;
     let by_approach = approach * stiffness;
-    let exponents = [by_approach / load, by_approach * widening / half_width, by_approach * growth];
-    Ok(Node { point: SpringPoint { approach, load, stiffness, half_width, peak }, exponents })
+    let exponents =
+        [by_approach / load, by_approach * widening / half_contact, by_approach * growth];
+    Ok(Node { point: SpringPoint { approach, load, stiffness, half_contact, peak }, exponents })
 }
 
 /// Interpolates between two points by Hermite's cubics.
@@ -247,11 +248,11 @@ fn between<T: Real>([from, to]: &[Node<T>; 2], approach: T) -> Node<T> {
         (first * value.exp(), slope / width)
     };
     let (load, exponent) = cubic(0, from.point.load, to.point.load);
-    let (half_width, widening) = cubic(1, from.point.half_width, to.point.half_width);
+    let (half_contact, widening) = cubic(1, from.point.half_contact, to.point.half_contact);
     let peak = from.point.peak.zip(to.point.peak).map(|(first, last)| cubic(2, first, last));
     let exponents = [exponent, widening, peak.map_or(T::zero(), |(_, growth)| growth)];
     let (stiffness, peak) = (exponent * load / approach, peak.map(|(peak, _)| peak));
-    Node { point: SpringPoint { approach, load, stiffness, half_width, peak }, exponents }
+    Node { point: SpringPoint { approach, load, stiffness, half_contact, peak }, exponents }
 }
 
 /// Returns the largest relative difference of two states between two points of this distance
@@ -260,7 +261,7 @@ fn difference<T: Real>(exact: &Node<T>, other: &Node<T>, width: T) -> [T; 2] {
     let share = |exact: T, other: T| (other / exact - T::one()).abs();
     let (point, found) = (exact.point, other.point);
     let peaks = point.peak.zip(found.peak).map_or(T::zero(), |(exact, other)| share(exact, other));
-    let values = share(point.load, found.load).max(share(point.half_width, found.half_width));
+    let values = share(point.load, found.load).max(share(point.half_contact, found.half_contact));
     let slopes = exact.exponents.iter().zip(other.exponents);
     let slopes = slopes.fold(T::zero(), |max, (&exact, other)| max.max((exact - other).abs()));
     let values = values.max(peaks).max(slopes * width / T::of(SLOPE_OF_ERROR));

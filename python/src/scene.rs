@@ -328,7 +328,7 @@ fn columns(py: Python<'_>, points: impl Iterator<Item = linecontact::SpringPoint
         column(|point| point.approach),
         column(|point| point.load),
         column(|point| point.stiffness),
-        column(|point| point.half_width),
+        column(|point| point.half_contact),
         column(|point| point.peak.unwrap_or(f64::INFINITY)),
     )
 }

@@ -28,7 +28,7 @@ fn errors(contact: &Contact<f64>, table: &SpringTable<f64>, loads: [f64; 2]) -> 
         let range = [0, table.points().len() - 1].map(|i| table.points().nth(i).unwrap().approach);
         let spring = table.at(approach.clamp(range[0], range[1])).unwrap();
         let half_width: f64 = solution.intervals().iter().map(|on| on.half_width()).sum();
-        values.extend([spring.load / load - 1.0, spring.half_width / half_width - 1.0]);
+        values.extend([spring.load / load - 1.0, spring.half_contact / half_width - 1.0]);
         if let Some(peak) = spring.peak {
             values.push(peak / solution.peak().unwrap().pressure - 1.0);
         }

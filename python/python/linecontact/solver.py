@@ -103,8 +103,8 @@ class SpringPoints(NamedTuple):
         Load per unit length F: force/length.
     stiffness : float or ndarray
         Stiffness dF/dδ: a pressure.
-    half_width : float or ndarray
-        Half-width; for several contacts, half the sum of their widths: a length.
+    half_contact : float or ndarray
+        Half the length in contact: the half-width, or half the sum of all widths; a length.
     peak : float or ndarray
         Largest pressure; infinite at a corner.
     """
@@ -112,7 +112,7 @@ class SpringPoints(NamedTuple):
     approach: Any
     load: Any
     stiffness: Any
-    half_width: Any
+    half_contact: Any
     peak: Any
 
 
