@@ -216,7 +216,7 @@ fn node<T: Real>(
     }
     let rates = solution.load_rates()?;
     let halves = solution.intervals().iter().map(Interval::half_width);
-    let half_contact = halves.fold(T::zero(), |sum, half_contact| sum + half_contact);
+    let half_contact = halves.fold(T::zero(), |sum, half| sum + half);
     let widening = rates.limits.iter().map(|rates| T::of(0.5) * (rates.right - rates.left));
     let widening = widening.fold(T::zero(), |sum, rate| sum + rate);
     let (peak, growth) = match solution.peak() {
@@ -225,9 +225,8 @@ fn node<T: Real>(
         Err(error) => return Err(error),
     };
     let stiffness = T::one() / rate;
-    let by_approach = approach * stiffness;
-    let exponents =
-        [by_approach / load, by_approach * widening / half_contact, by_approach * growth];
+    let by = approach * stiffness;
+    let exponents = [by / load, by * widening / half_contact, by * growth];
     Ok(Node { point: SpringPoint { approach, load, stiffness, half_contact, peak }, exponents })
 }
 
