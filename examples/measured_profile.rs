@@ -7,7 +7,7 @@
 //!
 //! At last it prints the errors of half-width and peak for several numbers of points, and how often
 //! they are within twice the standard deviation that the solution states. Two rows are in the
-//! README. `-- --all` prints the table of docs/accuracy.md, of 200 measurements each, in minutes.
+//! README. `-- --all` prints the table of docs/accuracy.md, of 200 measurements each.
 
 #[path = "shared/drawing.rs"]
 mod drawing;

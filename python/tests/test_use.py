@@ -419,6 +419,9 @@ def test_axes_show_units() -> None:
     labels = [axes.get_ylabel() for axes in figure.axes]
     assert labels == ["y before loading / mm", "pressure / MPa", "depth / mm", "largest shear / MPa"]
     assert figure.axes[2].get_xlabel() == "x / mm"
+    for wrong in ("mm", ("mm",)):
+        with pytest.raises(TypeError, match="names of the units"):
+            lc.solve(FLAT, BODY, kappa=1.0, load=0.01).plot(units=wrong)
 
 
 def test_drawn_bodies_just_touch() -> None:

@@ -29,7 +29,7 @@ const PLACES_PER_BREAKPOINT: usize = 4;
 /// All are linear in δ, and so their variances follow from the covariance of the fit
 /// ([`ParametricProfile::slope_deviation`](crate::ParametricProfile::slope_deviation)). It is that
 /// of a curve which is as rough as the penalty of the fit allows (Wahba, *J. R. Stat. Soc. B* 45,
-/// 1983, 133): rather too large for a smoother body.
+/// 1983, 133): rather too large for a smoother body, and too small where the curvature jumps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Uncertainty<T> {

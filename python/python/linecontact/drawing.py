@@ -65,7 +65,9 @@ def before_loading(
 
 def plot(solution: Solution, units: Sequence[str]) -> Figure:
     """Draws bodies, pressure and subsurface shear, one below the other over the same x."""
-    lengths, pressures = (f" / {unit}" if unit else "" for unit in units)
+    if isinstance(units, str) or len(units) not in (2, 3):
+        raise TypeError(f'units are {units!r}: give names of the units of lengths and pressures, as ("mm", "MPa")')
+    lengths, pressures = (f" / {unit}" if unit else "" for unit in units[:2])
     try:
         from matplotlib.figure import Figure
     except ImportError as missing:

@@ -494,8 +494,10 @@ class Solution:
     def uncertainty(self) -> Uncertainty:
         """Returns the standard deviations that the noise of measured points leaves in the contact.
 
-        They are for bodies by `Spline` with `smooth=True`, and 0 for exact bodies. Compare
-        `limits_error`, the numerical error for the bodies as given.
+        They are for bodies by `Spline` with `smooth=True`, and 0 for exact bodies. They hold under
+        the load of the solution, whatever was prescribed. Compare `limits_error`, the numerical
+        error for the bodies as given. They are too small where the curvature of a body jumps:
+        docs/accuracy.md says by how much.
 
         Returns
         -------
@@ -808,7 +810,7 @@ class Solution:
         ----------
         units : (str, str), optional
             Names of the units of lengths and pressures, to be shown at the axes, such as ("mm",
-            "MPa").
+            "MPa"). A third name, as `explore` takes it, is not used.
 
         Returns
         -------
