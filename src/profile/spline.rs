@@ -148,11 +148,11 @@ impl<T: Real> Spline<T> {
     }
 
     fn smoothed(points: &[[T; 2]]) -> Result<Self, SplineError<T>> {
-        let smooth = Smooth::new(points);
-        let x: Vec<T> = (0..smooth.knots.len()).map(|knot| smooth.place(knot)).collect();
+        let (smooth, knots) = Smooth::new(points);
+        let x: Vec<T> = (0..knots.len()).map(|knot| smooth.place(knot)).collect();
         let [before, x_last] = [x[0], x[x.len() - 1]];
         let overflow = SplineError::Overflow { row: points.len(), x: x_last, before };
-        let spline = Self::of(&x, &smooth.knots).map_err(|_| overflow)?;
+        let spline = Self::of(&x, &knots).map_err(|_| overflow)?;
         Ok(Self { noise: smooth.noise, smooth: Some(Arc::new(smooth)), ..spline })
     }
 

@@ -298,7 +298,7 @@ fn the_exact_contact_lies_within_the_uncertainty() {
     }
 }
 
-/// Noise moves the limits and the pressure as the derivatives say.
+/// Exact bodies add no uncertainty; pieces and placed points keep it, and a placed fit has lost it.
 #[test]
 fn uncertainty_is_known_where_the_fit_is() {
     let mut random = Shares(5);

@@ -204,13 +204,11 @@ pub(super) struct Smooth<T> {
     triangle: Triangle<T>,
     /// Standard deviation of the heights.
     pub noise: T,
-    /// Height and slope at each knot.
-    pub knots: Vec<[T; 2]>,
 }
 
 impl<T: Real> Smooth<T> {
-    /// Fits the curve to points.
-    pub fn new(points: &[[T; 2]]) -> Self {
+    /// Fits the curve to points; returns it with the height and the slope at each knot.
+    pub fn new(points: &[[T; 2]]) -> (Self, Vec<[T; 2]>) {
         let [[from, start], [to, end]] = [points[0], points[points.len() - 1]];
         let length = to - from;
         // Heights are taken from the line between the ends, which is not penalised.
@@ -239,7 +237,7 @@ impl<T: Real> Smooth<T> {
             [height + line, (slope + (end - start) / T::count(spans)) / span]
         };
         let knots = best.solve().windows(3).enumerate().map(knot).collect();
-        Self { ends: [from, to], spans, triangle, noise, knots }
+        (Self { ends: [from, to], spans, triangle, noise }, knots)
     }
 
     /// Returns x of a knot.
