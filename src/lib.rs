@@ -100,6 +100,8 @@ pub mod quadrature;
 mod real;
 pub mod reference;
 mod rounded;
+#[cfg(feature = "scene")]
+pub mod scene;
 pub mod search;
 mod solution;
 mod solve;

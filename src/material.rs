@@ -28,7 +28,7 @@ use crate::{Body, ContactError, InputError, Real};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "snake_case"))]
 pub enum Material<T> {
     /// Elastic and the same in all directions.
     Elastic {
@@ -53,7 +53,7 @@ impl<T: Real> Material<T> {
 /// Point of a body that its surface approaches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Reference<T> {
     /// Point at this depth below the surface of the half-plane, a length.
@@ -90,6 +90,7 @@ pub struct References<T> {
 /// of a roller neither holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum PlaneState {
     /// Bodies much longer than the contact is wide.
     #[default]

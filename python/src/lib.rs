@@ -5,6 +5,7 @@ mod call;
 mod control;
 mod curve;
 mod errors;
+mod files;
 mod gradient;
 mod profile;
 mod quantity;
@@ -18,6 +19,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use super::errors::variants;
+    #[pymodule_export]
+    use super::files::scene_text;
     #[pymodule_export]
     use super::gradient::{gradient, parameters};
     #[pymodule_export]

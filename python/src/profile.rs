@@ -151,13 +151,9 @@ fn refitted<T: Real>(
 ) -> Result<Spline<T>, ContactError<T>> {
     // Refuses an impossible placement.
     Placed::new(Flat, placement)?;
-    let place = |point: &[f64; 2]| placement.apply(point.map(T::of));
-    let mut placed: Vec<_> = points.iter().map(place).collect();
-    if placed[placed.len() - 1][0] < placed[0][0] {
-        placed.reverse();
-    }
+    let points: Vec<_> = points.iter().map(|point| point.map(T::of)).collect();
     // The fit at the first place has looked for outliers.
-    Ok(Spline::fitted(&placed, Fit { smooth: true, outliers: None })?)
+    Ok(Spline::fitted_at(&points, Fit { smooth: true, outliers: None }, placement)?)
 }
 
 fn placement<L: Lift>(steps: &[Step], lift: &mut L) -> PyResult<Placement<L::Of>> {

@@ -120,8 +120,7 @@ impl<T: Real> Placement<T> {
     }
 
     /// Returns a point of the body where it is placed.
-    #[must_use]
-    pub fn apply(&self, point: [T; 2]) -> [T; 2] {
+    pub(super) fn apply(&self, point: [T; 2]) -> [T; 2] {
         let [x, y] = self.direction(point);
         [x + self.shift[0], y + self.shift[1]]
     }

@@ -35,7 +35,14 @@ use std::sync::Arc;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
-    serde(default, deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
+    serde(
+        default,
+        deny_unknown_fields,
+        bound(
+            serialize = "T: Real + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>"
+        )
+    )
 )]
 pub struct Fit<T> {
     /// True to smooth the points, false (the default) for a curve through them.
@@ -53,7 +60,9 @@ pub struct Fit<T> {
     /// median of all such distances, or from the 21 points around it if their median is larger.
     /// Default 10; `None` disables the check. It needs twelve points. The two outermost points have
     /// neighbours on one side only: there it detects only errors several times as large. A corner
-    /// between two points, or an end that is nearly upright, looks like such an error.
+    /// between two points, or an end that is nearly upright, looks like such an error. In a file 0
+    /// stands for `None`.
+    #[cfg_attr(feature = "serde", serde(with = "stored::or_zero"))]
     pub outliers: Option<T>,
 }
 
@@ -147,6 +156,41 @@ impl<T: Real> Spline<T> {
         Self::of(&x, &knots.collect::<Vec<_>>())
     }
 
+    /// Fits the spline to points that are placed first. A smoothed spline that is
+    /// [placed](Self::placed) after the fit has lost its uncertainty.
+    ///
+    /// ```
+    /// use linecontact::profile::{Fit, Placement, Spline};
+    ///
+    /// let height = |i: i32| 5e-5 * f64::from(i * i) + 1e-6 * f64::from(i * 7 % 5 - 2);
+    /// let points: Vec<_> = (-100..=100).map(|i| [0.01 * f64::from(i), height(i)]).collect();
+    /// let (fit, to) = (Fit { smooth: true, ..Fit::default() }, Placement::default());
+    /// let [here, there] = [to, to.mirrored().flipped().scaled(3.0)]
+    ///     .map(|to| Spline::fitted_at(&points, fit, to));
+    /// assert!((there?.noise() / here?.noise() / 3.0 - 1.0).abs() < 1e-6);
+    /// # Ok::<(), linecontact::profile::SplineError<f64>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SplineError`], with the row of the faulty point; a placement that is not finite, or whose
+    /// factor is zero, makes all points faulty.
+    pub fn fitted_at(
+        points: &[[T; 2]],
+        fit: Fit<T>,
+        placement: Placement<T>,
+    ) -> Result<Self, SplineError<T>> {
+        points::check(points)?;
+        // Rows are counted where the points were measured.
+        if let Some(most) = fit.outliers {
+            points::check_outliers(points, most)?;
+        }
+        let mut placed: Vec<_> = points.iter().map(|&point| placement.apply(point)).collect();
+        if placed[placed.len() - 1][0] < placed[0][0] {
+            placed.reverse();
+        }
+        Self::fitted(&placed, Fit { outliers: None, ..fit })
+    }
+
     fn smoothed(points: &[[T; 2]]) -> Result<Self, SplineError<T>> {
         let (smooth, knots) = Smooth::new(points);
         let x: Vec<T> = (0..knots.len()).map(|knot| smooth.place(knot)).collect();
@@ -199,8 +243,7 @@ impl<T: Real> Spline<T> {
 
     /// Places the body: moved, mirrored, flipped, turned or scaled.
     ///
-    /// The uncertainty of a smoothed spline is lost. To keep it, place the points before the fit,
-    /// by [`Placement::apply`].
+    /// The uncertainty of a smoothed spline is lost; [`fitted_at`](Self::fitted_at) keeps it.
     ///
     /// ```
     /// use linecontact::profile::{Parabola, Placement, Spline};

@@ -65,6 +65,7 @@ pub struct Midpoint {
 /// Powers of the segment width in which the error expands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Exponents {
     /// 2, 4, 6, ...: as in the paper; right where `sqrt(1 - t²) g` is smooth at the edges.
     Even,

@@ -42,6 +42,7 @@ pub struct Attempt {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Start {
     /// Middle of the bodies, from where the search goes to their lowest gap: the bodies declare
     /// that they bulge towards each other, or [a single interval](crate::Contact::single_interval)
@@ -65,6 +66,7 @@ pub enum Start {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Outcome {
     /// Contact found: corners press, the pressure is nowhere negative and the bodies do not
     /// overlap, as far as they were checked. Bodies that [bulge](crate::profile::Convexity) towards

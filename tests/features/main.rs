@@ -1,4 +1,4 @@
-//! Tests of the features `autodiff`, `rayon` and `serde`.
+//! Tests of the features `autodiff` and `rayon`.
 #![allow(missing_docs)]
 
 #[path = "../common/mod.rs"]
@@ -12,5 +12,4 @@ mod approach;
 mod autodiff;
 mod derivatives;
 mod derivatives_several;
-mod files;
 mod sweep;

@@ -327,10 +327,8 @@ fn uncertainty_is_known_where_the_fit_is() {
     let placed = body.placed(Placement::default().mirrored()).unwrap();
     let error = of(&Flat, &placed).unwrap_err();
     assert!(matches!(error, ContactError::Evaluation(EvaluationError::NoUncertainty { .. })));
-    let mut turned: Vec<[f64; 2]> =
-        points.iter().map(|&point| Placement::default().mirrored().apply(point)).collect();
-    turned.reverse();
-    let turned = of(&Flat, &Spline::fitted(&turned, smooth).unwrap()).unwrap();
+    let mirrored = Spline::fitted_at(&points, smooth, Placement::default().mirrored()).unwrap();
+    let turned = of(&Flat, &mirrored).unwrap();
     assert_relative_eq!(turned.a, alone.b, max_relative = 1e-9);
     assert_relative_eq!(turned.b, alone.a, max_relative = 1e-9);
     let exact = Spline::through(&points).unwrap().placed(Placement::default().mirrored()).unwrap();

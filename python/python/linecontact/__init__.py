@@ -45,6 +45,7 @@ from .contact import (
 from .differentiating import gradient, parameters
 from .errors import EvaluationError, InputError, LineContactError, SolveError
 from .exploring import explore
+from .files import Scene
 from .solution import (
     Approach,
     Attempt,
@@ -99,6 +100,7 @@ __all__ = [
     "Reference",
     "References",
     "RoundedPunch",
+    "Scene",
     "Search",
     "Solution",
     "SolveError",

@@ -16,6 +16,7 @@ __all__ = [
     "gradient",
     "parameters",
     "quantities",
+    "scene_text",
     "sweep",
     "variants",
 ]
@@ -44,6 +45,7 @@ def parameters(
     scene: Scene, prescribed: _Prescribed | None, to: _References | None
 ) -> list[tuple[str, float]]: ...
 def quantities() -> list[str]: ...
+def scene_text(text: str, source: str, to: str) -> str: ...
 def sweep(
     scenes: Sequence[Scene],
     which: npt.NDArray[np.uintp],

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
 
@@ -573,6 +574,19 @@ class Contact(Unchanging):
 
     def __hash__(self) -> int:
         return hash((self.lower, self.upper, repr(self._settings)))
+
+    @staticmethod
+    def from_file(path: str | os.PathLike[str]) -> Contact:
+        """Reads the contact of a scene file, as `Scene.from_file` does."""
+        from .files import Scene
+
+        return Scene.from_file(path).contact
+
+    def to_file(self, path: str | os.PathLike[str]) -> None:
+        """Writes the contact to a scene file, as `Scene.to_file` does."""
+        from .files import Scene
+
+        Scene(self).to_file(path)
 
     def solve(
         self,

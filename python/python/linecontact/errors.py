@@ -48,6 +48,35 @@ class SearchError(SolveError):
     """A search has found no root of a function of one variable."""
 
 
+class SceneFileError(InputError):
+    """A file holds no scene, or a scene cannot be written to a file.
+
+    Attributes
+    ----------
+    path : str
+        Name of the file.
+    line : int or None
+        Line of the fault, counted from 1, if it is known.
+    field : str
+        Field at fault, such as `upper.shape`; empty if it is the file as a whole.
+    reason : str
+        Nature of the fault.
+    """
+
+    path: str
+    line: int | None
+    field: str
+    reason: str
+
+    def __init__(self, path: str, line: int | None, field: str, reason: str) -> None:
+        super().__init__(path, line, field, reason)
+        self.path, self.line, self.field, self.reason = path, line, field, reason
+
+    def __str__(self) -> str:
+        place = self.path if self.line is None else f"{self.path}:{self.line}"
+        return ": ".join(filter(None, (place, self.field, self.reason)))
+
+
 class MissingDerivativesError(InputError, TypeError):
     """The function of a `Curve` has not returned four arrays.
 

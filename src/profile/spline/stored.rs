@@ -1,4 +1,4 @@
-//! Splines in files: their cubics.
+//! Splines in files: their cubics, and the settings of a fit.
 
 use super::{Cubic, Spline, SplineError, points};
 use crate::Real;
@@ -41,5 +41,25 @@ impl<T: Real> Spline<T> {
                 Err(if is_finite { Fault::Break { cubic: i + 1, x } } else { overflow.into() })
             }
         }
+    }
+}
+
+/// Reads and writes 0 in place of `None`, which TOML cannot write.
+pub(in crate::profile) mod or_zero {
+    use crate::Real;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(in crate::profile) fn serialize<T: Real + Serialize, S: Serializer>(
+        value: &Option<T>,
+        file: S,
+    ) -> Result<S::Ok, S::Error> {
+        value.unwrap_or(T::zero()).serialize(file)
+    }
+
+    pub(in crate::profile) fn deserialize<'de, T: Real + Deserialize<'de>, D: Deserializer<'de>>(
+        file: D,
+    ) -> Result<Option<T>, D::Error> {
+        let value = T::deserialize(file)?;
+        Ok((!value.is_zero()).then_some(value))
     }
 }

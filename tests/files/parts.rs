@@ -209,8 +209,8 @@ fn settings_are_kept_and_have_their_defaults() {
     let coarse = Midpoint { segments: 32, ..Midpoint::DEFAULT };
     assert_eq!(serde_json::from_str::<Midpoint>(r#"{"segments": 32}"#).unwrap(), coarse);
     assert!(refusal::<Panels>(r#"{"tolerence": 0.1}"#).contains("`tolerence`"));
-    assert!(refusal::<Control<f64>>(r#"{"Lode": 0.1}"#).contains("`Lode`"));
-    assert!(refusal::<Control<f64>>(r#"{"Load": null}"#).contains("null"));
+    assert!(refusal::<Control<f64>>(r#"{"lode": 0.1}"#).contains("`lode`"));
+    assert!(refusal::<Control<f64>>(r#"{"load": null}"#).contains("null"));
 }
 
 fn bumps() -> Solution<'static, f64> {

@@ -1,0 +1,177 @@
+//! Scenes in files: two bodies by their parameters, their stiffness, and the quantities to solve
+//! for.
+//!
+//! A [`Scene`] is data only, in TOML or in JSON. Python reads and writes the same files
+//! (`linecontact.Scene.from_file`), and `docs/scene.schema.json` describes them for editors. Numbers
+//! are written with all their digits, so that a scene solves to the same bits wherever it is read.
+//! Curves given as functions, and your own profiles, cannot be written: [`Shape`] has the bodies
+//! that a file can hold.
+//!
+//! ```
+//! use linecontact::scene::Scene;
+//!
+//! let scene = Scene::<f64>::from_toml(
+//!     r#"
+//!     title = "A roller in a groove"
+//!     units = { length = "mm", pressure = "MPa", load = "N/mm" }
+//!     stiffness = { contact_modulus = 115e3 }
+//!     controls = [{ load = 500.0 }, { half_width = 0.3 }]
+//!
+//!     [lower]
+//!     shape = { ellipse = { along = 40.0, across = 40.0, angles = [-1.5, 1.5] } }
+//!
+//!     [upper]
+//!     shape = { ellipse = { along = 10.0, across = 10.0, angles = [-1.5, 1.5] } }
+//!     steps = [{ shifted = [3.0, 0.0] }, "mirrored"]
+//!     "#,
+//! )?;
+//! let contact = scene.contact()?;
+//! for &control in &scene.controls {
+//!     let solution = contact.solve(control)?;
+//!     println!("{} N/mm, {} mm", solution.load(), solution.hull().half_width());
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod shape;
+mod text;
+
+pub use shape::{PlacedShape, Shape, Step};
+pub use text::SceneError;
+
+use crate::{Contact, ContactError, Control, Edge, Ends, Material, PlaneState, Real};
+use serde::{Deserialize, Serialize};
+
+/// Contents of a file: a [`Contact`], and the quantities to prescribe.
+///
+/// ```
+/// use linecontact::profile::Ellipse;
+/// use linecontact::scene::{Scene, Shape, Stiffness};
+/// use linecontact::Control;
+///
+/// let roller = Shape::Ellipse(Ellipse::circle(10.0, [-1.5, 1.5])?);
+/// let mut scene = Scene::new(Shape::Flat, roller);
+/// scene.stiffness = Some(Stiffness::ContactModulus(115e3));
+/// scene.controls.push(Control::Load(500.0));
+/// let read = Scene::from_json(&scene.to_json()?)?;
+/// assert_eq!(read, scene);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    bound(serialize = "T: Real + Serialize", deserialize = "T: Real + Deserialize<'de>")
+)]
+#[non_exhaustive]
+pub struct Scene<T> {
+    /// Name of the scene, for people.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// Labels of the units.
+    #[serde(default, skip_serializing_if = "Units::is_empty")]
+    pub units: Units,
+    /// Source of κ; without it κ = 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<Stiffness<T>>,
+    /// Conditions at the edges: [`Contact::edges`]. Without them both edges are free.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub edges: Option<Ends<Edge<T>>>,
+    /// Narrowest feature to be seen, a length: [`Contact::resolution`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<T>,
+    /// True if each solution must be proven: [`Contact::certified`].
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub certified: bool,
+    /// Quantities to prescribe, one for each solve.
+    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
+    pub controls: Vec<Control<T>>,
+    /// Body 1.
+    #[serde(deserialize_with = "shape::possible")]
+    pub lower: PlacedShape<T>,
+    /// Body 2.
+    #[serde(deserialize_with = "shape::possible")]
+    pub upper: PlacedShape<T>,
+}
+
+/// Source of the scale κ.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "snake_case")]
+pub enum Stiffness<T> {
+    /// E*, a pressure: [`Contact::contact_modulus`].
+    ContactModulus(T),
+    /// κ, a pressure: [`Contact::kappa`].
+    Kappa(T),
+    /// Materials of both bodies: [`Contact::materials`].
+    Materials {
+        /// Material of body 1.
+        lower: Material<T>,
+        /// Material of body 2.
+        upper: Material<T>,
+        /// Thickness of the bodies across the plane.
+        #[serde(default)]
+        plane: PlaneState,
+    },
+}
+
+/// Labels of the units that the numbers of a scene are in. They are printed, and convert nothing;
+/// an empty one is not printed.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Units {
+    /// Unit of lengths, such as `mm`.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub length: String,
+    /// Unit of pressures, such as `MPa`.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub pressure: String,
+    /// Unit of loads per unit length, such as `N/mm`.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub load: String,
+}
+
+impl Units {
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl<T: Real> Scene<T> {
+    /// Creates the scene of two bodies, with the defaults of [`Contact::owned`] and without
+    /// controls.
+    pub fn new(lower: impl Into<PlacedShape<T>>, upper: impl Into<PlacedShape<T>>) -> Self {
+        Self {
+            title: String::new(),
+            units: Units::default(),
+            stiffness: None,
+            edges: None,
+            resolution: None,
+            certified: false,
+            controls: Vec::new(),
+            lower: lower.into(),
+            upper: upper.into(),
+        }
+    }
+
+    /// Builds the contact.
+    ///
+    /// # Errors
+    /// As [`Contact::owned`], and [`PlacedShape::build`].
+    pub fn contact(&self) -> Result<Contact<'static, T>, ContactError<T>> {
+        let mut contact = Contact::owned(self.lower.build()?, self.upper.build()?)?;
+        contact = match self.stiffness {
+            None => contact,
+            Some(Stiffness::ContactModulus(modulus)) => contact.contact_modulus(modulus),
+            Some(Stiffness::Kappa(kappa)) => contact.kappa(kappa),
+            Some(Stiffness::Materials { lower, upper, plane }) => {
+                contact.materials(lower, upper, plane)
+            }
+        };
+        if let Some(Ends { left, right }) = self.edges {
+            contact = contact.edges(left, right);
+        }
+        if let Some(length) = self.resolution {
+            contact = contact.resolution(length);
+        }
+        Ok(contact.certified(self.certified))
+    }
+}

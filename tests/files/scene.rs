@@ -1,0 +1,198 @@
+//! Scenes in files: every body through TOML and JSON and back, bit for bit, and what is refused.
+#![allow(missing_docs)]
+
+use linecontact::profile::{Crowning, Ellipse, Fit, Involute, Line, Parabola};
+use linecontact::scene::{PlacedShape, Scene, Shape, Step, Stiffness};
+use linecontact::{
+    Contact, Control, Edge, Ends, Flat, Material, PlaneState, Reference, References,
+};
+
+/// Bodies of every shape, with numbers whose last digit matters.
+fn shapes() -> Vec<Shape<f64>> {
+    let points: Vec<_> = (-9..=9).map(|i| 0.13 * f64::from(i)).map(|x| [x, x.cosh()]).collect();
+    let line = Line::new(-0.1, [-0.7, 0.0]).unwrap();
+    let rise = PlacedShape {
+        shape: Shape::Line(Line::new(0.1, [0.0, 1.0]).unwrap()),
+        steps: vec![Step::Scaled(0.7)],
+    };
+    vec![
+        Shape::Flat,
+        Shape::Line(Line::new(0.1, [-1.0 / 3.0, 0.7]).unwrap()),
+        Shape::Parabola(Parabola::new(0.1 + 0.2, [-1.0, 2.0 / 3.0]).unwrap()),
+        Shape::Ellipse(Ellipse::new(3.0, -0.7, [-1.1, 1.2]).unwrap()),
+        Shape::Involute(Involute::new(50.0, 0.4, [0.1, 0.7]).unwrap()),
+        Shape::Crowning(Crowning::new(1e-300, 5.0, [-5.0, 4.9]).unwrap()),
+        Shape::Wedge { slopes: [-0.1, 0.3], reach: 0.7 },
+        Shape::RoundedPunch { flat: 0.3, radius: 0.7, reach: 1.1 },
+        Shape::Spline { points: points.clone(), fit: Fit::default() },
+        Shape::Spline { points, fit: Fit { smooth: true, outliers: None } },
+        Shape::Piecewise { parts: vec![Shape::Line(line).into(), rise], tolerance: Some(1e-9) },
+    ]
+}
+
+#[test]
+fn every_scene_is_kept_bit_for_bit() {
+    let to = References { x: 0.1, lower: Reference::Depth(3.0), upper: Reference::Disc(2.0) };
+    let steel = Material::elastic(210e3, 0.3);
+    for (i, shape) in shapes().into_iter().enumerate() {
+        let steps = vec![
+            Step::Mirrored,
+            Step::Shifted(1e-3 / 7.0, 2e22),
+            Step::Scaled(1.1),
+            Step::Flipped,
+            Step::Rotated(1e-3),
+        ];
+        let mut scene = Scene::new(shape, PlacedShape { shape: Shape::Flat, steps });
+        scene.title = "\"three\"\nlines\\ äöü".to_owned();
+        scene.units.load = "N/mm".to_owned();
+        scene.stiffness = [
+            None,
+            Some(Stiffness::Kappa(0.1)),
+            Some(Stiffness::ContactModulus(115e3)),
+            Some(Stiffness::Materials {
+                lower: Material::Rigid,
+                upper: steel,
+                plane: PlaneState::Stress,
+            }),
+        ][i % 4];
+        scene.edges = [None, Some(Ends { left: Edge::Free, right: Edge::FreeUntil(0.1) })][i % 2];
+        scene.certified = i % 3 == 0;
+        scene.resolution = [None, Some(1e-5)][i % 2];
+        scene.controls = vec![
+            Control::Load(1.0 / 3.0),
+            Control::Approach { approach: 0.01, references: to },
+            Control::Moment { load: 1.0, moment: -0.1, about: 0.3 },
+        ];
+        let toml = scene.to_toml().unwrap();
+        assert_eq!(Scene::from_toml(&toml).as_ref(), Ok(&scene), "{toml}");
+        let json = scene.to_json().unwrap();
+        assert_eq!(Scene::from_json(&json).as_ref(), Ok(&scene), "{json}");
+        assert_eq!(Scene::<f64>::from_json(&json).unwrap().to_toml().unwrap(), toml);
+    }
+}
+
+/// The package for Python reads and writes the same file.
+#[test]
+fn a_file_is_written_again_byte_by_byte() {
+    let text = include_str!("../data/scene.toml");
+    let scene = Scene::<f64>::from_toml(text).unwrap();
+    assert_eq!(scene.to_toml().unwrap(), text);
+    let contact = scene.contact().unwrap();
+    for &control in &scene.controls {
+        contact.solve(control).unwrap();
+    }
+}
+
+#[test]
+fn a_scene_solves_to_the_same_bits() {
+    let text = r#"
+        stiffness = { materials = { lower = "rigid", upper = { elastic = { youngs_modulus = 210e3, poisson_ratio = 0.3 } } } }
+        [lower]
+        shape = "flat"
+        [upper]
+        shape = { ellipse = { along = 10, across = 10, angles = [-1.5, 1.5] } }
+    "#;
+    let scene = Scene::from_toml(text).unwrap();
+    let roller = Ellipse::circle(10.0, [-1.5, 1.5]).unwrap();
+    let by_hand = Contact::new(&Flat, &roller).unwrap().materials(
+        Material::Rigid,
+        Material::elastic(210e3, 0.3),
+        PlaneState::Strain,
+    );
+    let load = Control::Load(500.0);
+    let (read, made) =
+        (scene.contact().unwrap().solve(load).unwrap(), by_hand.solve(load).unwrap());
+    assert_eq!(read.hull(), made.hull());
+    assert_eq!(read.peak().unwrap(), made.peak().unwrap());
+}
+
+#[test]
+fn a_smoothed_spline_keeps_its_uncertainty_where_it_is_placed() {
+    let height = |i: i32| 5e-5 * f64::from(i * i) + 1e-6 * f64::from(i * 7 % 5 - 2);
+    let points: Vec<_> = (-100..=100).map(|i| [0.01 * f64::from(i), height(i)]).collect();
+    let shape = Shape::Spline { points, fit: Fit { smooth: true, ..Fit::default() } };
+    let measured = |steps| {
+        let scene = Scene::new(Shape::Flat, PlacedShape { shape: shape.clone(), steps });
+        let solution = scene.contact().unwrap().solve(Control::Load(0.02)).unwrap();
+        (solution.a(), solution.b(), solution.uncertainty().unwrap().a)
+    };
+    let (here, there) = (measured(vec![]), measured(vec![Step::Mirrored]));
+    assert!((there.0 / here.1 - 1.0).abs() < 1e-12 && (there.1 / here.0 - 1.0).abs() < 1e-12);
+    assert!(here.2 > 0.0 && there.2 > 0.0);
+}
+
+#[test]
+fn a_bad_file_is_refused_with_line_and_field() {
+    let good = "title = \"x\"\n\n[lower]\nshape = \"flat\"\n\n[upper]\nshape = { parabola = { radius = 1.0, domain = [-1.0, 1.0] } }\n";
+    assert!(Scene::<f64>::from_toml(good).is_ok());
+    let refused = [
+        ("\"x\"", "x", 1, "", "quote"),
+        ("title", "titel", 1, "titel", "unknown field `titel`"),
+        ("flat", "flit", 4, "lower.shape", "unknown variant `flit`"),
+        ("shape = \"flat\"", "", 3, "lower", "missing field `shape`"),
+        ("radius = 1.0, ", "", 7, "upper.shape.parabola", "missing field `radius`"),
+        (
+            "radius = 1.0",
+            "radius = \"1\"",
+            7,
+            "upper.shape.parabola.radius",
+            "invalid type: string",
+        ),
+        ("radius = 1.0", "radius = 0.0", 7, "upper.shape.parabola", "the radius is 0:"),
+        ("radius = 1.0", "radius = nan", 7, "upper.shape.parabola", "the radius is NaN:"),
+        ("-1.0, 1.0]", "-1.0]", 7, "upper.shape.parabola.domain", "length 1"),
+        (
+            "flat\"\n",
+            "flat\"\nsteps = [{ scaled = 0.0 }]\n",
+            3,
+            "lower",
+            "factor of a placement is 0",
+        ),
+        (
+            "flat\"\n",
+            "flat\"\nsteps = [\"turned\"]\n",
+            5,
+            "lower.steps[0]",
+            "unknown variant `turned`",
+        ),
+        ("\n\n", "\ncontrols = [{ lode = 1 }]\n", 2, "controls[0]", "unknown variant `lode`"),
+        ("\n\n", "\ncontrols = [{ load = \"1\" }]\n", 2, "controls[0].load", "invalid type"),
+        ("\n\n", "\nstiffness = { kappa = 1, contact_modulus = 1 }\n", 2, "stiffness", "1 element"),
+        ("\n\n", "\nedges = { left = \"free\" }\n", 2, "edges", "missing field `right`"),
+        (
+            "\n\n",
+            "\nedges = { left = \"free\", right = \"free\", up = 1 }\n",
+            2,
+            "edges.up",
+            "`up`",
+        ),
+        ("\n\n", "\nunits = { width = \"mm\" }\n", 2, "units.width", "unknown field `width`"),
+    ];
+    for (from, to, line, field, reason) in refused {
+        let text = good.replacen(from, to, 1);
+        let error = Scene::<f64>::from_toml(&text).expect_err(&text);
+        let place = (error.line, error.field.as_str());
+        assert!(place == (Some(line), field) && error.reason.contains(reason), "{text}{error:#?}");
+        println!("{error}");
+    }
+}
+
+#[test]
+fn a_bad_json_file_is_refused_with_line_and_field() {
+    let good = "{\n\"lower\": {\"shape\": \"flat\"},\n\"upper\": {\"shape\": {\n\"wedge\": {\"slopes\": [-0.1, 0.1], \"reach\": 1}}}\n}";
+    assert!(Scene::<f64>::from_json(good).is_ok());
+    let refused = [
+        ("\"flat\"", "flat", 2, "lower.shape", "expected"),
+        ("0.1]", "null]", 4, "upper.shape.wedge.slopes[1]", "invalid type: null"),
+        ("\"reach\": 1", "\"reach\": -1", 5, "upper", "k cannot run from"),
+        (": 1}}}\n}", ": 1}}}\n}\n]", 6, "", "trailing characters"),
+        ("\n}", "", 4, "", "EOF"),
+    ];
+    for (from, to, line, field, reason) in refused {
+        let text = good.replacen(from, to, 1);
+        let error = Scene::<f64>::from_json(&text).expect_err(&text);
+        let place = (error.line, error.field.as_str());
+        assert!(place == (Some(line), field) && error.reason.contains(reason), "{text}{error:#?}");
+        println!("{error}");
+    }
+}
