@@ -1,8 +1,11 @@
 """Scenes in files: as the Rust library writes them, and through Python unchanged."""
 
+from __future__ import annotations
+
 import json
 import math
-import pathlib
+from pathlib import Path
+from typing import Any
 
 import hypothesis
 import hypothesis.strategies as st
@@ -13,7 +16,7 @@ import pytest
 import linecontact as lc
 from linecontact import errors
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = json.loads((ROOT / "docs/scene.schema.json").read_text(encoding="utf-8"))
 RUST = ROOT / "tests/data/scene.toml"
 ODD = 0.1 + 0.2  # a number whose last digit matters
@@ -22,7 +25,7 @@ FINITE = st.floats(-1e9, 1e9)
 POSITIVE = st.floats(1e-6, 1e6)
 
 
-def test_a_file_of_rust_goes_through_python_bit_for_bit(tmp_path):
+def test_a_file_of_rust_goes_through_python_bit_for_bit(tmp_path: Path) -> None:
     scene = lc.Scene.from_file(RUST)
     for name in ("scene.json", "scene.toml"):
         scene.to_file(tmp_path / name)
@@ -31,7 +34,7 @@ def test_a_file_of_rust_goes_through_python_bit_for_bit(tmp_path):
     jsonschema.validate(json.loads((tmp_path / "scene.json").read_text(encoding="utf-8")), SCHEMA)
 
 
-def bodies():
+def bodies() -> list[lc.Body]:
     x = np.linspace(-1.0, 1.0, 21)
     points = np.column_stack([x, x**2 / 3])
     flank = lc.Line(-0.1, (-0.7, 0.0))
@@ -52,15 +55,16 @@ def bodies():
 
 
 @pytest.mark.parametrize("form", ["toml", "json"])
-@pytest.mark.parametrize("body", bodies(), ids=lambda body: type(body).__name__)
-def test_every_body_is_kept(body, form, tmp_path):
+@pytest.mark.parametrize("body", bodies(), ids=lambda body: str(type(body).__name__))
+def test_every_body_is_kept(body: lc.Body, form: str, tmp_path: Path) -> None:
     placed = body.shifted(0.1, 1e-7).mirrored().flipped().scaled(-1.7).rotated(1e-3)
     for made in (body, placed):
         contact = lc.Contact(lc.Flat().shifted(0.0, -9.0), made)
         contact.to_file(tmp_path / f"scene.{form}")
         read = lc.Contact.from_file(tmp_path / f"scene.{form}")
         assert read == contact and repr(read) == repr(contact)
-        k = np.linspace(*made.domain, 20) if made.pieces == 1 else np.linspace(0, made.pieces, 20)
+        first, last = made.domain
+        k = np.linspace(first, last, 20)
         assert all(map(np.array_equal, read.upper.at(k), made.at(k)))
 
 
@@ -90,7 +94,7 @@ TO = lc.References(0.1, lc.Reference.depth(ODD), lc.Reference.disc(10.0))
     ],
     ids=lambda settings: "-".join(settings),
 )
-def test_settings_and_controls_are_kept(settings, control, tmp_path):
+def test_settings_and_controls_are_kept(settings: Any, control: Any, tmp_path: Path) -> None:
     contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-2.0, 2.0)), **settings)
     scene = lc.Scene(contact, (control,), {"length": "mm"}, 'a "title"\nin two lines')
     for form in ("toml", "json"):
@@ -99,7 +103,7 @@ def test_settings_and_controls_are_kept(settings, control, tmp_path):
     jsonschema.validate(json.loads((tmp_path / "scene.json").read_text(encoding="utf-8")), SCHEMA)
 
 
-def test_a_moment_is_about_the_origin_by_default(tmp_path):
+def test_a_moment_is_about_the_origin_by_default(tmp_path: Path) -> None:
     contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-2.0, 2.0)))
     lc.Scene(contact, ({"load": 1.0, "moment": 0.1},)).to_file(tmp_path / "scene.json")
     assert lc.Scene.from_file(tmp_path / "scene.json").controls[0]["about"] == 0.0
@@ -107,7 +111,9 @@ def test_a_moment_is_about_the_origin_by_default(tmp_path):
 
 @hypothesis.given(radius=POSITIVE, along=FINITE, angle=st.floats(-0.1, 0.1), load=POSITIVE)
 @hypothesis.settings(deadline=None, max_examples=50)
-def test_numbers_keep_their_bits(radius, along, angle, load, tmp_path_factory):
+def test_numbers_keep_their_bits(
+    radius: float, along: float, angle: float, load: float, tmp_path_factory: pytest.TempPathFactory
+) -> None:
     path = tmp_path_factory.getbasetemp() / "scene.toml"
     upper = lc.Parabola(radius, (-radius, radius)).rotated(angle).shifted(along)
     scene = lc.Scene(lc.Contact(lc.Flat(), upper, kappa=load), ({"load": load},))
@@ -135,7 +141,9 @@ shape = { parabola = { radius = 1.0, domain = [-1.0, 1.0] } }
         ("stiffness", "stiffness = 1\nstiffness", 2, "", "duplicate key"),
     ],
 )
-def test_a_bad_file_says_line_and_field(old, new, line, field, reason, tmp_path):
+def test_a_bad_file_says_line_and_field(
+    old: str, new: str, line: int, field: str, reason: str, tmp_path: Path
+) -> None:
     path = tmp_path / "bad.toml"
     path.write_text(GOOD.replace(old, new, 1))
     with pytest.raises(errors.SceneFileError) as caught:
@@ -145,7 +153,7 @@ def test_a_bad_file_says_line_and_field(old, new, line, field, reason, tmp_path)
     assert str(error).startswith(f"{path}:{line}: ")
 
 
-def test_what_is_no_text_is_refused(tmp_path):
+def test_what_is_no_text_is_refused(tmp_path: Path) -> None:
     for name, text, said in [
         ("a.toml", b"a = 1\n\xff", "UTF-8"),
         ("a.json", b"", "EOF"),
@@ -162,11 +170,11 @@ def test_what_is_no_text_is_refused(tmp_path):
         lc.Scene.from_file(tmp_path / "none.toml")
 
 
-def circle(k):
+def circle(k: Any) -> tuple[Any, Any, Any, Any]:
     return np.sin(k), 1 - np.cos(k), np.cos(k), np.sin(k)
 
 
-def test_what_a_file_cannot_hold_is_refused(tmp_path):
+def test_what_a_file_cannot_hold_is_refused(tmp_path: Path) -> None:
     flat, body = lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0))
     curve = lc.Curve((-1.0, 1.0), circle)
     joined = lc.Piecewise([curve, lc.Line(math.tan(1.0), (0.0, 1.0)).shifted(math.sin(1.0), 1 - math.cos(1.0))], 1e-6)
@@ -193,7 +201,7 @@ def test_what_a_file_cannot_hold_is_refused(tmp_path):
     assert not (tmp_path / "scene.toml").exists()
 
 
-def test_the_schema_refuses_what_the_library_refuses(tmp_path):
+def test_the_schema_refuses_what_the_library_refuses(tmp_path: Path) -> None:
     contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), contact_modulus=1.0)
     lc.Scene(contact, ({"load": 1.0},)).to_file(tmp_path / "scene.json")
     good = json.loads((tmp_path / "scene.json").read_text())

@@ -207,7 +207,7 @@ def _read_edge(value: Named) -> Edge:
 
 
 def _read_contact(fields: Fields) -> Contact:
-    settings = {name: fields[name] for name in ("resolution", "certified") if name in fields}
+    settings: Fields = {name: fields[name] for name in ("resolution", "certified") if name in fields}
     if "stiffness" in fields:
         kind, value = _named(fields["stiffness"])
         if kind == "materials":
