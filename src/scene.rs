@@ -39,7 +39,7 @@ mod text;
 pub use shape::{PlacedShape, Shape, Step};
 pub use text::SceneError;
 
-use crate::{Contact, ContactError, Control, Edge, Ends, Material, PlaneState, Real};
+use crate::{Contact, ContactError, Control, Edge, Ends, Material, PlaneState, Real, References};
 use serde::{Deserialize, Serialize};
 
 /// Contents of a file: a [`Contact`], and the quantities to prescribe.
@@ -82,6 +82,9 @@ pub struct Scene<T> {
     /// True if each solution must be proven: [`Contact::certified`].
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub certified: bool,
+    /// Points between which results give the approach and the stiffness; they need materials.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub references: Option<References<T>>,
     /// Quantities to prescribe, one for each solve.
     #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
     pub controls: Vec<Control<T>>,
@@ -146,6 +149,7 @@ impl<T: Real> Scene<T> {
             edges: None,
             resolution: None,
             certified: false,
+            references: None,
             controls: Vec::new(),
             lower: lower.into(),
             upper: upper.into(),

@@ -96,7 +96,7 @@ TO = lc.References(0.1, lc.Reference.depth(ODD), lc.Reference.disc(10.0))
 )
 def test_settings_and_controls_are_kept(settings: Any, control: Any, tmp_path: Path) -> None:
     contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-2.0, 2.0)), **settings)
-    scene = lc.Scene(contact, (control,), {"length": "mm"}, 'a "title"\nin two lines')
+    scene = lc.Scene(contact, (control,), {"length": "mm"}, 'a "title"\nin two lines', TO)
     for form in ("toml", "json"):
         scene.to_file(tmp_path / f"scene.{form}")
         assert lc.Scene.from_file(tmp_path / f"scene.{form}") == scene

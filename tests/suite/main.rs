@@ -1,4 +1,4 @@
-//! All tests without features, as one program, so that the solver is compiled only once.
+//! All tests, but for those of dual numbers, as one program: the solver is compiled only once.
 #![allow(missing_docs)]
 #![allow(clippy::duplicate_mod, reason = "programs of their own, whose scenes are compared")]
 
@@ -39,6 +39,8 @@ mod edge_pressures;
 mod edges;
 mod errors;
 mod estimates;
+#[cfg(feature = "scene")]
+mod files;
 mod flanks;
 mod flats;
 mod fuzz_regressions;
@@ -74,6 +76,8 @@ mod references_f32;
 mod resolution;
 mod safeguards;
 mod saturated;
+#[cfg(feature = "scene")]
+mod scene_files;
 mod search_counts;
 mod searches;
 mod several_closed_forms;

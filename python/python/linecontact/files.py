@@ -63,6 +63,8 @@ class Scene(NamedTuple):
         Labels of the units of "length", "pressure" and "load": they convert nothing.
     title : str
         Name of the scene.
+    references : References, optional
+        Points between which result sheets give the approach and the stiffness; they need materials.
 
     Examples
     --------
@@ -79,6 +81,7 @@ class Scene(NamedTuple):
     controls: Sequence[Prescribed] = ()
     units: dict[str, str] = {}
     title: str = ""
+    references: References | None = None
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Scene:
@@ -99,7 +102,8 @@ class Scene(NamedTuple):
         except SceneFileError as error:
             raise SceneFileError(os.fspath(path), error.line, error.field, error.reason) from None
         controls = tuple(map(_read_control, fields.get("controls", ())))
-        return cls(_read_contact(fields), controls, fields.get("units", {}), fields.get("title", ""))
+        to = _read_references(fields["references"]) if "references" in fields else None
+        return cls(_read_contact(fields), controls, fields.get("units", {}), fields.get("title", ""), to)
 
     def to_file(self, path: str | os.PathLike[str]) -> None:
         """Writes the scene to a file, whose name ends in `.toml` or `.json`.
@@ -116,6 +120,8 @@ class Scene(NamedTuple):
             fields = _contact_fields(self.contact)
             fields |= {"controls": list(map(_control_fields, self.controls))}
             fields |= {"units": dict(self.units), "title": self.title}
+            if self.references is not None:
+                fields["references"] = _references_fields(self.references)
             text = _native.scene_text(_json(fields), "json", form)
         except SceneFileError as error:
             raise SceneFileError(os.fspath(path), None, error.field, error.reason) from None
@@ -239,14 +245,22 @@ def _contact_fields(contact: Contact) -> Fields:
     return fields
 
 
+def _read_references(fields: Fields) -> References:
+    lower, upper = (Reference(*_named(fields[side])) for side in ("lower", "upper"))  # type: ignore[arg-type]
+    return References(fields["x"], lower, upper)
+
+
+def _references_fields(given: References) -> Fields:
+    x, lower, upper = given
+    return {"x": x, "lower": {lower.kind: lower.value}, "upper": {upper.kind: upper.value}}
+
+
 def _read_control(value: Fields) -> Prescribed:
     kind, given = _named(value)
     if kind == "centre_of_pressure":
         return {"load": given["load"], "centre_of_pressure": given["at"]}
     if kind == "approach":
-        to = given["references"]
-        lower, upper = (Reference(*_named(to[side])) for side in ("lower", "upper"))  # type: ignore[arg-type]
-        return {"approach": given["approach"], "references": References(to["x"], lower, upper)}
+        return {"approach": given["approach"], "references": _read_references(given["references"])}
     return cast("Prescribed", given if kind == "moment" else {kind: given})
 
 
@@ -258,7 +272,5 @@ def _control_fields(given: Prescribed) -> Fields:
     if "moment" in fields:
         return {"moment": {"about": 0.0} | fields}
     if references := fields.pop("references", None):
-        x, lower, upper = references
-        to = {"x": x, "lower": {lower.kind: lower.value}, "upper": {upper.kind: upper.value}}
-        return {"approach": fields | {"references": to}}
+        return {"approach": fields | {"references": _references_fields(references)}}
     return fields

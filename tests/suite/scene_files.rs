@@ -1,5 +1,4 @@
 //! Scenes in files: every body through TOML and JSON and back, bit for bit, and what is refused.
-#![allow(missing_docs)]
 
 use linecontact::profile::{Crowning, Ellipse, Fit, Involute, Line, Parabola};
 use linecontact::scene::{PlacedShape, Scene, Shape, Step, Stiffness};
@@ -58,6 +57,7 @@ fn every_scene_is_kept_bit_for_bit() {
         scene.edges = [None, Some(Ends { left: Edge::Free, right: Edge::FreeUntil(0.1) })][i % 2];
         scene.certified = i % 3 == 0;
         scene.resolution = [None, Some(1e-5)][i % 2];
+        scene.references = [None, Some(to)][i % 2];
         scene.controls = vec![
             Control::Load(1.0 / 3.0),
             Control::Approach { approach: 0.01, references: to },

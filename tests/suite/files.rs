@@ -1,6 +1,5 @@
 //! Bodies, settings and results through JSON and back: unchanged, or refused with the constructor's
 //! error.
-#![allow(missing_docs)]
 
 use crate::common::{on_flat, quartic};
 use linecontact::profile::{
