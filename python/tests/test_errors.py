@@ -471,6 +471,7 @@ def test_provoked(provoke: Callable[[], Any], name: str, numbers: dict[str, Any]
         provoke()
     error = raised.value
     assert type(error).__name__ == name, error
+    assert not re.search(r"::|Fixed|FreeUntil|Adhesive|Placement|Fit\b", str(error))
     table = dict(_native.variants())
     for attribute in table[name]:
         assert hasattr(error, attribute)
@@ -628,7 +629,45 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     ),
     (lambda: ANY.Material(210e3, 30), lc.InputError, ("ratio is 30", "0 to 1/2", "0.3 of steel")),
     (lambda: ANY.Material("210e3", 0.3), TypeError, ("youngs_modulus is '210e3'", "one number")),
+    (lambda: contact(limit_search="brend"), ValueError, ("limit_search is 'brend'", "'secant', 'brent', 'newton'")),
+    (lambda: contact(inversion=3), ValueError, ("inversion is 3", "'bisection'")),
+    (lambda: contact(quadrature="panels"), TypeError, ("quadrature is 'panels'", "Panels() or Midpoint()")),
+    (
+        lambda: contact(quadrature=ANY.Midpoint(exponents="odd")),
+        ValueError,
+        ("exponents is 'odd'", "'half_integer', 'even'"),
+    ),
+    (lambda: material(plane="strian"), ValueError, ("plane is 'strian'", "'strain', 'stress'")),
+    (lambda: contact(kapa=1.0), TypeError, ("Contact has no argument kapa", "materials, kappa, plane")),
+    (lambda: anything(contact()).solve(laod=1.0), TypeError, ("no argument laod", "there are load, half_width")),
+    (lambda: ANY.solve(FLAT, BODY, laod=1.0), TypeError, ("solve has no argument laod", "load", "kappa")),
+    (lambda: ANY.Spline(np.zeros((9, 2)), smoth=True), TypeError, ("no argument smoth", "points, smooth, outliers")),
+    (lambda: ANY.Spline(np.zeros((9, 2)), smooth=1e-4), TypeError, ("smooth is 0.0001", "True or False")),
+    (
+        lambda: ANY.Spline(np.ma.masked_equal(np.column_stack([X, X]), 0.0)),
+        ValueError,
+        ("points has 2 masked numbers", "leave them out"),
+    ),
 ]
+
+
+def test_an_array_without_masked_numbers_may_have_a_mask() -> None:
+    rows = np.column_stack([X, X**2])
+    assert lc.Spline(np.ma.masked_invalid(rows)) == lc.Spline(rows, smooth=bool(np.bool_(False)))
+
+
+def test_messages_have_the_names_of_this_package() -> None:
+    """Looks at all messages in the source of the library, whether or not they are provoked above."""
+    texts = []
+    for path in SOURCE.rglob("*.rs"):
+        # Comments have the names of the library, and so has the code between the messages.
+        source = re.sub(r"^\s*//.*$", "", path.read_text(), flags=re.MULTILINE)
+        texts += re.findall(r'"((?:[^"\\]|\\.)*)"', source, flags=re.DOTALL)
+    rust = [re.sub(r"\\\s+", "", text) for text in texts if re.search(r"\w \w.* \w", text)]
+    rust = [text for text in rust if re.search(r"\w::[A-Za-z]", text) and not re.search("impl(ement)? ", text)]
+    assert len(rust) > 10
+    for text in rust:
+        assert "::" not in str(lc.LineContactError(text)), text
 
 
 def material_of(materials: Any) -> lc.Contact:

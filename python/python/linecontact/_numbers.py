@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias
+import inspect
+from collections.abc import Callable, Collection, Sequence
+from functools import wraps
+from typing import Any, ParamSpec, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +18,9 @@ Numbers: TypeAlias = Sequence[float] | Sequence[Sequence[float]] | npt.NDArray[A
 
 Range: TypeAlias = tuple[float, float]
 """First and last number of a range."""
+
+_Arguments = ParamSpec("_Arguments")
+_Result = TypeVar("_Result")
 
 
 class Unchanging:
@@ -58,11 +63,41 @@ def as_range(given: Any, name: str) -> Range:
 
 
 def as_numbers(given: Any, name: str) -> FloatArray:
-    """Converts to an array of numbers; refuses text."""
+    """Converts to an array of numbers; refuses text, and masked numbers."""
+    if np.ma.is_masked(given):
+        count = np.sum(np.ma.getmaskarray(given))
+        raise ValueError(f"{name} has {count} masked numbers: leave them out, or fill them")
     found = np.asarray(given)
     if found.dtype.kind in "US":
         raise TypeError(f"{name} is {given!r}: give numbers")
     return np.asarray(found, dtype=np.float64)
+
+
+def one_of(given: Any, name: str, allowed: Sequence[str]) -> str:
+    """Returns a word of a choice; refuses any other."""
+    if isinstance(given, str) and given in allowed:
+        return given
+    raise ValueError(f"{name} is {given!r}: give one of {', '.join(map(repr, allowed))}")
+
+
+def refuse_unknown(given: Collection[str], allowed: Sequence[str], of: str) -> None:
+    """Refuses keyword arguments that are not allowed, and names the allowed ones."""
+    for name in given:
+        if name not in allowed:
+            raise TypeError(f"{of} has no argument {name}: there are {', '.join(allowed)}")
+
+
+def named(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Result]:
+    """Decorates a function so that it answers an unknown keyword argument with those it has."""
+    allowed = [name for name in inspect.signature(function).parameters if name != "self"]
+    of = function.__qualname__.removesuffix(".__init__")
+
+    @wraps(function)
+    def checked(*args: _Arguments.args, **given: _Arguments.kwargs) -> _Result:
+        refuse_unknown(given, allowed, of)
+        return function(*args, **given)
+
+    return checked
 
 
 def each(of: Callable[[FloatArray], FloatArray], x: Any) -> Any:

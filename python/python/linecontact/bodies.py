@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._numbers import FloatArray, Numbers, Range, Unchanging, as_number, as_numbers, as_range
+from ._numbers import FloatArray, Numbers, Range, Unchanging, as_number, as_numbers, as_range, named
 
 Bulge: TypeAlias = Literal["unknown", "straight", "convex", "concave"]
 Step: TypeAlias = tuple[str, tuple[float, ...]]
@@ -513,16 +513,19 @@ class Spline(Body):
     True
     """
 
+    @named
     def __init__(
         self, points: npt.ArrayLike, *, smooth: bool = False, outliers: float | None = 10.0
     ) -> None:
         rows = as_numbers(points, "points").copy()
         if rows.ndim != 2 or rows.shape[1] != 2:
             raise ValueError(f"points of shape {rows.shape}: give rows of x and y, of shape (n, 2)")
+        if not isinstance(smooth, bool | np.bool_):
+            raise TypeError(f"smooth is {smooth!r}: give True or False, the noise is estimated from the points")
         rows.setflags(write=False)
-        self.points, self.smooth = rows, smooth
+        self.points, self.smooth = rows, bool(smooth)
         self.outliers = None if outliers is None else as_number(outliers, "outliers")
-        self._profile = _native.Profile.spline(rows, smooth, self.outliers)
+        self._profile = _native.Profile.spline(rows, self.smooth, self.outliers)
 
     @property
     def noise(self) -> float:

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
 
 from . import _native
-from ._numbers import Range, Unchanging, as_number, as_range
+from ._numbers import Range, Unchanging, as_number, as_range, named, one_of
 from .bodies import Body
 from .solution import PartialSlip, Solution, _acting, _ratio
 
@@ -330,11 +330,12 @@ class Midpoint(NamedTuple):
     exponents: Literal["half_integer", "even"] = "half_integer"
 
 
-def _search(given: Search | str | None) -> tuple[str, list[float]] | None:
+def _search(given: Search | str | None, name: str) -> tuple[str, list[float]] | None:
     if given is None:
         return None
-    method, *numbers = Search(given) if isinstance(given, str) else given  # type: ignore[arg-type]
-    return method, [float(number) for number in numbers]
+    method, *numbers = given if isinstance(given, tuple) else (given, *Search("newton")[1:])
+    one_of(method, name, ("bisection", "secant", "brent", "newton"))
+    return method, [as_number(number, name) for number in numbers]
 
 
 def _quadrature(given: Panels | Midpoint | None) -> tuple[str, list[float]] | None:
@@ -342,8 +343,10 @@ def _quadrature(given: Panels | Midpoint | None) -> tuple[str, list[float]] | No
         return None
     if isinstance(given, Panels):
         return "panels", [given.tolerance]
-    even = {"even": 1.0, "half_integer": 0.0}[given.exponents]
-    return "midpoint", [float(given.segments), float(given.extrapolations), even]
+    if not isinstance(given, Midpoint):
+        raise TypeError(f"quadrature is {given!r}: give Panels() or Midpoint()")
+    even = one_of(given.exponents, "exponents", ("half_integer", "even")) == "even"
+    return "midpoint", [float(given.segments), float(given.extrapolations), float(even)]
 
 
 class Prescribed(TypedDict, total=False):
@@ -479,6 +482,7 @@ class Contact(Unchanging):
 
     _SEAL = "_scene"
 
+    @named
     def __init__(
         self,
         lower: Body,
@@ -502,6 +506,7 @@ class Contact(Unchanging):
         for body in (lower, upper):
             if not isinstance(body, Body):
                 raise TypeError(f"{body!r} is no Body: make one, such as Flat() or a Curve")
+        one_of(plane, "plane", ("strain", "stress"))
         if plane != "strain" and materials is None:
             raise TypeError("the plane goes with materials: a contact_modulus or kappa has it already")
         if sum(given is not None for given in (contact_modulus, materials, kappa)) > 1:
@@ -537,8 +542,8 @@ class Contact(Unchanging):
             edges=edges,
             edge_pressure=edge_pressure,
             start=self._settings["start"],
-            inversion=_search(inversion),
-            limit_search=_search(limit_search),
+            inversion=_search(inversion, "inversion"),
+            limit_search=_search(limit_search, "limit_search"),
             quadrature=_quadrature(quadrature),
             resolution=self._settings["resolution"],
             certified=certified,
@@ -588,6 +593,7 @@ class Contact(Unchanging):
 
         Scene(self).to_file(path)
 
+    @named
     def solve(
         self,
         *,

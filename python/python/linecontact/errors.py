@@ -24,9 +24,41 @@ Examples
 
 from __future__ import annotations
 
+# Words of the Rust library in its messages that are different here.
+_IN_PYTHON = {
+    "Edge::Fixed or FreeUntil": "Edge.fixed or Edge.free_until",
+    "Free, Fixed or FreeUntil": "free, fixed or free_until",
+    "the edge Fixed(": "the edge Edge.fixed(",
+    "with Fixed(": "with Edge.fixed(",
+    "with FreeUntil(": "with Edge.free_until(",
+    "with Adhesive(": "with Edge.adhesive(",
+    "is Adhesive": "is adhesive",
+    "Edge::FreeUntil": "Edge.free_until",
+    "Material::Rigid": "Material.rigid()",
+    "by Contact::materials": "by materials=(lower, upper)",
+    "Convexity::Unknown": 'the convexity "unknown"',
+    "Placement::flipped": "Body.flipped",
+    "use Piecewise::placed": "place its parts one by one",
+    "by Piecewise::with_tolerance": "by Piecewise(parts, tolerance)",
+    "Fit::smooth": "smooth=True",
+    "set Fit::outliers to None": "give outliers=None",
+    "Fit::outliers is": "outliers is",
+    "edge_singularities()": "edge_singularities",
+}
+
 
 class LineContactError(Exception):
     """Base class of all exceptions of the solver."""
+
+    def __init__(self, *given: object) -> None:
+        super().__init__(*(_translated(one) if isinstance(one, str) else one for one in given))
+
+
+def _translated(message: str) -> str:
+    """Replaces names of the Rust library by those of this package."""
+    for there, here in _IN_PYTHON.items():
+        message = message.replace(there, here)
+    return message
 
 
 class InputError(LineContactError, ValueError):

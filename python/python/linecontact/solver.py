@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from . import _native
-from ._numbers import FloatArray, Numbers, as_number, as_numbers, as_range
+from ._numbers import FloatArray, Numbers, as_number, as_numbers, as_range, refuse_unknown
 from .bodies import Body
 from .contact import Contact, Prescribed, References, Settings, _wanted
 from .solution import PartialSlip, Solution, _acting
@@ -43,6 +43,7 @@ def solve(lower: Body, upper: Body, **given: Unpack[Given]) -> Solution:
     <Solution: contact [-0.235283, 0.235283], load 500, checked>
     """
     names = Prescribed.__annotations__
+    refuse_unknown(given, [*names, *Settings.__annotations__], "solve")
     prescribed = {name: value for name, value in given.items() if name in names}
     settings = {name: value for name, value in given.items() if name not in names}
     return Contact(lower, upper, **cast("Any", settings)).solve(**cast("Any", prescribed))
