@@ -14,6 +14,8 @@ A steel roller of 10 mm radius on a steel flat: mm, MPa, N/mm.
 1352.9
 """
 
+from typing import get_type_hints as _types
+
 from . import errors
 from .bodies import (
     Body,
@@ -46,6 +48,7 @@ from .differentiating import gradient, parameters
 from .errors import EvaluationError, InputError, LineContactError, SolveError
 from .exploring import explore
 from .files import Scene
+from .reading import MeasuredProfile, read_profile
 from .solution import (
     Approach,
     Attempt,
@@ -90,6 +93,7 @@ __all__ = [
     "LineContactError",
     "LoadRates",
     "Material",
+    "MeasuredProfile",
     "Midpoint",
     "Panels",
     "Parabola",
@@ -118,6 +122,12 @@ __all__ = [
     "explore",
     "gradient",
     "parameters",
+    "read_profile",
     "solve",
     "sweep",
 ]
+
+# A NamedTuple keeps the types of its fields as words: documentation needs the types.
+for _row in [_kind for _kind in globals().values() if hasattr(_kind, "_fields")]:
+    if _row.__new__.__module__.startswith("namedtuple_"):
+        _row.__new__.__annotations__.update(_types(_row))

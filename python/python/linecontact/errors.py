@@ -136,6 +136,37 @@ class MissingDerivativesError(InputError, TypeError):
         )
 
 
+class MeasuredFileError(InputError):
+    """A file of a measured profile cannot be read.
+
+    Attributes
+    ----------
+    path : str
+        File.
+    reason : str
+        Fault, and its remedy.
+    line : int or None
+        Line of the fault in a text, counted from 1.
+    byte : int or None
+        Place of the fault in a binary file, counted from 0.
+    """
+
+    path: str
+    reason: str
+    line: int | None
+    byte: int | None
+
+    def __init__(
+        self, path: str, reason: str, line: int | None = None, byte: int | None = None
+    ) -> None:
+        super().__init__(path, reason, line, byte)
+        self.path, self.reason, self.line, self.byte = path, reason, line, byte
+
+    def __str__(self) -> str:
+        place = "" if self.line is None else f":{self.line}"
+        return f"{self.path}{place if self.byte is None else f', byte {self.byte}'}: {self.reason}"
+
+
 class ProfileError(InputError):
     """The profile of a body is faulty.
 

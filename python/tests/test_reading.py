@@ -1,0 +1,353 @@
+"""Measured profiles read from files: of our own writers, and of independent packages."""
+
+from __future__ import annotations
+
+import io
+import pickle
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from instruments import packed, sdf, sdf_text, x3p
+from scenes import Array
+
+import linecontact as lc
+
+# Three profiles of a roller of 10 mm radius, 401 points 5 µm apart: metres.
+STEP, COUNT = 5e-6, 401
+X: Array = np.asarray(STEP * np.arange(COUNT), dtype=np.float64)
+ROLLER: Array = np.asarray(0.01 - np.sqrt(0.01**2 - (X - X[200]) ** 2), dtype=np.float64)
+SURFACE: Array = np.array([ROLLER, 1.1 * ROLLER, 1.2 * ROLLER])
+Z_STEP = 1e-9
+
+
+def written(folder: Path, name: str, content: bytes | str) -> Path:
+    file = folder / name
+    file.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return file
+
+
+def same(found: lc.MeasuredProfile, x: Array, z: Array, z_off: float = 0.0, scale: float = 1.0) -> None:
+    np.testing.assert_allclose(found.points[:, 0], scale * x, rtol=1e-14, atol=1e-18 * scale)
+    np.testing.assert_allclose(found.points[:, 1], scale * z, rtol=1e-14, atol=scale * z_off + 1e-18)
+
+
+# Texts.
+
+TEXTS = {
+    "semicolons": "x [mm]; z [um]\n0.0; 1.5\n0.1; -2.5e0\n0.2; 0.5\n",
+    "tabs, windows": "x / mm\tz / um\r\n0.0\t1.5\r\n0.1\t-2.5\r\n0.2\t0.5\r\n",
+    "commas": "x (mm),z (um)\n0.0,1.5\n0.1,-2.5\n0.2,0.5",
+    "decimal commas": "x [mm];z [um]\n0,0;1,5\n0,1;-2,5\n0,2;0,5\n",
+    "decimal commas, tabs": "x [mm]\tz [um]\n0,0\t1,5\n0,1\t-2,5\n0,2\t0,5\n",
+    "decimal commas, blanks": "x [mm]  z [um]\n 0,0  1,5\n 0,1 -2,5\n 0,2  0,5\n",
+    "units in a line": "Profile of a roller; 26.11.2026\nx;z\nmm;um\n0.0;1.5\n0.1;-2.5\n0.2;0.5\n",
+    "trailing delimiters": "x [mm];z [um];\n0.0;1.5;\n0.1;-2.5;\n\n0.2;0.5;\n",
+    "comments": "# x [mm] z [um]\n0.0 1.5\n# pause\n0.1 -2.5\n0.2 0.5\n",
+    "old Macs": "x [mm];z [um]\r0.0;1.5\r0.1;-2.5\r0.2;0.5\r",
+    "empty cells first": ";;\n;\nx [mm];z [um]\n0.0;1.5\n0.1;-2.5\n0.2;0.5\n",
+    "right to left": "x [mm];z [um]\n0.2;0.5\n0.1;-2.5\n0.0;1.5\n",
+    "ends not measured": "x [mm];z [um]\n-0.1;NaN\n0.0;1.5\n0.1;-2.5\n0.2;0.5\n0.3;\n",
+}
+
+
+@pytest.mark.parametrize("coding", ["utf-8", "utf-8-sig", "utf-16"])
+@pytest.mark.parametrize("case", TEXTS)
+def test_texts(case: str, coding: str, tmp_path: Path) -> None:
+    found = lc.read_profile(written(tmp_path, "roller.txt", TEXTS[case].encode(coding)))
+    np.testing.assert_allclose(found.points, [[0.0, 1.5e-3], [0.1, -2.5e-3], [0.2, 0.5e-3]], rtol=1e-15)
+    assert found.unit == "mm" and found.missing == (2 if case == "ends not measured" else 0)
+
+
+@pytest.mark.parametrize("unit", ["µm".encode(), "μm".encode(), "µm".encode("latin-1"), b"um"])
+def test_the_micro_sign(unit: bytes, tmp_path: Path) -> None:
+    file = written(tmp_path, "roller.csv", b"x [mm]; z [" + unit + b"]\n0; 3\n1; 4\n")
+    np.testing.assert_allclose(lc.read_profile(file).points, [[0.0, 3e-3], [1.0, 4e-3]])
+    np.testing.assert_allclose(lc.read_profile(file, unit="nm").points, [[0.0, 3e3], [1e6, 4e3]])
+
+
+def test_units_and_columns(tmp_path: Path) -> None:
+    bare = written(tmp_path, "bare.csv", "0;3\n1;4\n")
+    marked = written(tmp_path, "marked.csv", b"\xef\xbb\xbf0;3\n1;4\n")
+    archived = written(tmp_path, "archived.csv", "PK [mm];z [mm]\n0;3\n1;4\n")
+    assert lc.read_profile(archived).points.tolist() == [[0, 3], [1, 4]]
+    assert lc.read_profile(marked).points.tolist() == [[0, 3], [1, 4]]
+    assert lc.read_profile(bare).unit == "" and lc.read_profile(bare).points.tolist() == [[0, 3], [1, 4]]
+    found = lc.read_profile(bare, file_units=("mm", "um"))
+    assert found.unit == "mm" and found.points.tolist() == [[0, 3e-3], [1, 4e-3]]
+    inches = lc.read_profile(bare, file_units=("in", "in"), unit="mm").points
+    np.testing.assert_allclose(inches, [[0, 76.2], [25.4, 101.6]])
+    wide = written(tmp_path, "wide.csv", "i;x [mm];y;z [um]\n1;0;9;3\n2;1;9;4\n")
+    np.testing.assert_allclose(lc.read_profile(wide, columns=(2, 4)).points, [[0, 3e-3], [1, 4e-3]])
+    with pytest.raises(ValueError, match="unit is 'ft': give one of 'm'"):
+        lc.read_profile(bare, unit="ft")
+    pairs: list[dict[str, Any]] = [{"columns": (1,)}, {"file_units": "mm"}]
+    for given in pairs:
+        with pytest.raises(TypeError, match="give two, of x and z"):
+            lc.read_profile(bare, **given)
+    with pytest.raises(FileNotFoundError):
+        lc.read_profile(tmp_path / "none.csv")
+
+
+# Standard files.
+
+
+@pytest.mark.parametrize(
+    ("kind", "revision"), [("int16", 1), ("int32", 1), ("double", 1), ("float", 2), ("int8", 2), ("int32", 2)]
+)
+def test_binary_sdf(kind: str, revision: int, tmp_path: Path) -> None:
+    step = {"int8": 1e-6, "int16": 2e-9}.get(kind, Z_STEP)
+    off = 0.5 * step if kind.startswith("int") else 1e-7 * SURFACE.max() if kind == "float" else 0.0
+    file = written(tmp_path, "roller.sdf", sdf(SURFACE, STEP, step, kind, revision))
+    for row in (1, 2, 3):
+        found = lc.read_profile(file, row=row)
+        same(found, X, SURFACE[row - 1], off)
+        assert found.unit == "m" and found.missing == 0
+    same(lc.read_profile(file, row=2, unit="mm"), X, SURFACE[1], off, 1e3)
+
+
+@pytest.mark.parametrize("end", ["\r\n", "\n"])
+def test_sdf_in_ascii(end: str, tmp_path: Path) -> None:
+    file = written(tmp_path, "roller.sdf", sdf_text(SURFACE, STEP, 1e-6, end))
+    same(lc.read_profile(file, row=3), X, SURFACE[2])
+
+
+@pytest.mark.parametrize("kind", ["I", "L", "F", "D"])
+def test_x3p(kind: str, tmp_path: Path) -> None:
+    step = {"I": 2 * Z_STEP, "L": Z_STEP}.get(kind, 1.0)
+    off = 0.5 * step if kind in "IL" else 1e-7 * SURFACE.max() if kind == "F" else 0.0
+    file = written(tmp_path, "roller.x3p", x3p(SURFACE, STEP, step, kind, x_offset=0.25))
+    same(lc.read_profile(file, row=2), 0.25 + X, SURFACE[1], off)
+    file = written(tmp_path, "roller.x3p", x3p(SURFACE[:1], STEP, step, kind))
+    same(lc.read_profile(file), X, SURFACE[0], off)
+
+
+def test_x3p_of_a_stored_x(tmp_path: Path) -> None:
+    uneven = X + 1e-7 * np.sin(X / STEP)
+    file = written(tmp_path, "roller.x3p", x3p(SURFACE, 1.0, 2 * Z_STEP, "I", uneven))
+    same(lc.read_profile(file, row=3), uneven, SURFACE[2], Z_STEP)
+
+
+def edited(**words: str) -> bytes:
+    """Returns an X3P file with words of its main.xml replaced."""
+    with zipfile.ZipFile(io.BytesIO(x3p(SURFACE, STEP))) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    for old, new in words.items():
+        assert old.encode() in parts["main.xml"]
+        parts["main.xml"] = parts["main.xml"].replace(old.encode(), new.encode())
+    return packed(parts)
+
+
+def test_x3p_with_all_elements_in_the_namespace(tmp_path: Path) -> None:
+    """Some programs write so, though the schema has it for the root only."""
+    content = edited(**{"xmlns:p=": "xmlns=", "p:ISO": "ISO"})
+    same(lc.read_profile(written(tmp_path, "roller.x3p", content), row=2), X, SURFACE[1])
+
+
+@pytest.mark.parametrize("name", ["roller.sdf", "text.sdf", "roller.x3p", "whole.x3p", "roller.csv"])
+def test_points_that_were_not_measured(name: str, tmp_path: Path) -> None:
+    heights = SURFACE[:1].copy()
+    heights[0, :3] = heights[0, 390:] = np.nan
+
+    def content() -> bytes:
+        rows = "".join(f"{x!r};{z!r}\n" for x, z in zip(X.tolist(), heights[0].tolist(), strict=True))
+        return {
+            "roller.sdf": sdf(heights, STEP, Z_STEP, "int32"),
+            "text.sdf": sdf_text(heights, STEP, Z_STEP).encode(),
+            "roller.x3p": x3p(heights, STEP),
+            "whole.x3p": x3p(heights, STEP, Z_STEP, "L"),
+            "roller.csv": f"x [m];z [m]\n{rows}".encode(),
+        }[name]
+
+    found = lc.read_profile(written(tmp_path, name, content()))
+    same(found, X[3:390], SURFACE[0, 3:390], 0.5 * Z_STEP)
+    assert found.missing == 14
+    heights[0, 200] = heights[0, 202] = np.nan
+    file = written(tmp_path, name, content())
+    with pytest.raises(lc.errors.MeasuredFileError, match="like 1 others between the ends") as raised:
+        lc.read_profile(file)
+    assert raised.value.line == 202 if name.endswith("csv") else "point 201" in raised.value.reason
+    found = lc.read_profile(file, skip_missing=True)
+    left = np.delete(np.arange(3, 390), [197, 199])
+    same(found, X[left], SURFACE[0, left], 0.5 * Z_STEP)
+    assert found.missing == 16
+
+
+def test_a_roller_from_a_file_is_solved(tmp_path: Path) -> None:
+    noisy = ROLLER + 2e-8 * np.random.RandomState(1).normal(size=COUNT)
+    found = lc.read_profile(written(tmp_path, "roller.x3p", x3p(noisy[None], STEP)), unit="mm")
+    body = lc.Spline(found.points, smooth=True).shifted(-1e3 * X[200])
+    solution = lc.solve(lc.Flat(), body, contact_modulus=115e3, load=500.0)
+    exact = lc.solve(lc.Flat(), lc.Ellipse.circle(10.0, (-0.1, 0.1)), contact_modulus=115e3, load=500.0)
+    assert abs(solution.half_width - exact.half_width) < 3 * solution.uncertainty().half_width < 0.02 * exact.half_width
+
+
+# Independent packages.
+
+
+def bridged() -> Array:
+    heights = SURFACE.copy()
+    heights[1, :3] = np.nan
+    return heights
+
+
+@pytest.mark.parametrize("form", ["ascii", "binary"])
+@pytest.mark.parametrize("revision", ["ISO-1.0", "ISO-2.0"])
+def test_sdf_by_sdfio(form: str, revision: str, tmp_path: Path) -> None:
+    sdfio: Any = pytest.importorskip("sdfio")
+    file = tmp_path / "theirs.sdf"
+    settings = {"z_scale": Z_STEP, "format": sdfio.FileFormat[form.upper()]}
+    made = sdfio.SdfFile.from_array(bridged(), x_scale=STEP, y_scale=1e-6, **settings)
+    made.with_revision(sdfio.Revision(revision), data_type=sdfio.DataType.INT32).save(file)
+    found = lc.read_profile(file, row=2)
+    same(found, X[3:], SURFACE[1, 3:], 0.5 * Z_STEP)
+    binary = sdf(bridged(), STEP, Z_STEP, revision=int(revision[4]))
+    ours = sdf_text(bridged(), STEP, Z_STEP) if form == "ascii" else binary
+    theirs = sdfio.read(written(tmp_path, "ours.sdf", ours))
+    np.testing.assert_allclose(theirs.data, bridged(), rtol=1e-14, atol=1e-20)
+    assert theirs.header.x_scale == STEP
+
+
+@pytest.mark.parametrize("rows", [1, 3])
+@pytest.mark.parametrize("kind", ["I", "L", "F", "D"])
+def test_x3p_by_x3pio(kind: str, rows: int, tmp_path: Path) -> None:
+    x3pio: Any = pytest.importorskip("x3pio")
+    step, off = (2 * Z_STEP, Z_STEP) if kind in "IL" else (1.0, 1e-7 * SURFACE.max() if kind == "F" else 1e-20)
+    theirs = x3pio.read(written(tmp_path, "ours.x3p", x3p(bridged()[-rows:], STEP, step, kind)))
+    layer = theirs.layers[0]
+    np.testing.assert_allclose(np.reshape(layer.z, (rows, COUNT)), bridged()[-rows:], rtol=1e-14, atol=off)
+    theirs.save(tmp_path / "theirs.x3p")
+    found = lc.read_profile(tmp_path / "theirs.x3p", row=rows)
+    same(found, X, SURFACE[2], off)
+
+
+@pytest.mark.parametrize("name", ["roller.sdf", "roller.x3p"])
+def test_surfaces_by_surfalize(name: str, tmp_path: Path) -> None:
+    surfalize: Any = pytest.importorskip("surfalize")
+    theirs = surfalize.Surface(1e6 * bridged(), 1e6 * STEP, 1.0)
+    theirs.save(tmp_path / name)
+    found = lc.read_profile(tmp_path / name, row=2, unit="um")
+    same(found, X[3:], SURFACE[1, 3:], 1e-18, 1e6)
+    ours = sdf(bridged(), STEP, Z_STEP) if name.endswith("sdf") else x3p(bridged(), STEP)
+    again = surfalize.Surface.load(written(tmp_path, name, ours))
+    np.testing.assert_allclose(again.data, 1e6 * bridged(), rtol=1e-12, atol=1e-12)
+
+
+# Faulty files.
+
+GOOD = "x [mm]; z [mm]\n0; 1\n1; 2\n"
+LINES = sdf_text(SURFACE, STEP, Z_STEP)
+NO_X = LINES.replace("Xscale", "Yscale").encode()
+NO_COUNT = LINES.replace("= 401", "= 4e2").encode()
+MINUS = LINES.replace("= 401", "= -401").replace("= 3\r", "= -3\r").encode()
+ZERO = LINES.replace("0.0000000000000000e+00", "zero").encode()
+FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
+    ("empty.csv", b"", {}, {}, "no line has two numbers"),
+    ("blank.csv", b"\n\n \r\n", {}, {}, "no line has two numbers"),
+    ("words.csv", b"not a profile\n", {}, {}, "no line has two numbers"),
+    ("one.csv", b"z [um]\n1.5\n2.5\n", {}, {"line": 2}, "columns of x and z"),
+    ("short.csv", b"0;1\n", {}, {}, "1 points were measured"),
+    ("three.csv", b"0;1;2\n1;2;3\n", {}, {"line": 1}, r"columns=\(1, 3\)"),
+    ("wide.csv", b"0;1\n1;2;3\n", {}, {"line": 2}, "3 columns: there are 2"),
+    ("thin.csv", b"0;1\n1\n", {}, {"line": 2}, "1 columns: there are 2"),
+    ("column.csv", GOOD.encode(), {"columns": (1, 3)}, {"line": 2}, "there are 1 to 2"),
+    ("zero.csv", GOOD.encode(), {"columns": (0, 1)}, {"line": 2}, "there are 1 to 2"),
+    ("word.csv", b"0;1\n1;two\n", {}, {"line": 2}, "'two' are no two numbers"),
+    ("thousands.csv", b"0;1\n1;1.234,5\n", {}, {"line": 2}, "are no two numbers"),
+    ("mixed.csv", b"0.5;1\n1,5;2\n", {}, {"line": 2}, "decimal point, and others with a comma"),
+    ("score.csv", b"0;1\n1;1_000\n", {}, {"line": 2}, "are no two numbers"),
+    ("infinite.csv", b"0;1\n1;inf\n2;3\n", {}, {"line": 2}, "infinite"),
+    ("huge.csv", b"0;1\n1;1e999\n2;3\n", {}, {"line": 2}, "infinite"),
+    ("hole.csv", b"0;1\n1;NaN\n2;3\n", {}, {"line": 2}, "skip_missing=True"),
+    ("nothing.csv", b"0;NaN\n1;NaN\n2;\n", {}, {}, "0 points were measured"),
+    ("turns.csv", b"0;1\n1;2\n0.5;3\n2;4\n", {}, {"line": 3}, "x = 0.5 after 1"),
+    ("twice.csv", b"0;1\n1;2\n1;3\n2;4\n", {}, {"line": 3}, "x = 1 after 1"),
+    ("still.csv", b"1;1\n1;2\n", {}, {"line": 2}, "x = 1 after 1"),
+    ("half.csv", b"x [mm]; z\n0;1\n1;2\n", {}, {"line": 1}, "only one of x and z has a unit"),
+    ("mils.csv", b"x [mil]; z [mil]\n0;1\n1;2\n", {"unit": "mm"}, {}, "states no units: give file_units"),
+    ("wide16.csv", "0;1\n1;2".encode("utf-16")[:-1], {}, {"byte": 14}, "no text in UTF-16"),
+    ("no_mark.csv", "0;1\n1;2\n".encode("utf-16-le"), {}, {"byte": 1}, "zero bytes"),
+    ("rows.csv", GOOD.encode(), {"row": 1}, {}, "is text: columns and file_units are for texts"),
+    ("columns.sdf", sdf(SURFACE, STEP, Z_STEP), {"row": 1, "columns": (1, 2)}, {}, "is sdf: .* row is for others"),
+    ("text.x3p", GOOD.encode(), {}, {"byte": 0}, "no X3P file"),
+    ("text.sdf", GOOD.encode(), {}, {"byte": 0}, "no SDF file"),
+    ("new.sdf", b"bISO-3.0" + sdf(SURFACE, STEP, Z_STEP)[8:], {"row": 1}, {"byte": 0}, "no SDF file"),
+    ("rows.sdf", sdf(SURFACE, STEP, Z_STEP), {}, {}, "3 profiles: give a row from 1 to 3"),
+    ("row.sdf", sdf(SURFACE, STEP, Z_STEP), {"row": 4}, {}, "row is 4"),
+    ("row.x3p", x3p(SURFACE, STEP), {"row": 0}, {}, "row is 0"),
+    ("head.sdf", sdf(SURFACE, STEP, Z_STEP)[:80], {"row": 1}, {"byte": 80}, "header of 81 bytes"),
+    ("cut.sdf", sdf(SURFACE, STEP, Z_STEP)[:-1], {"row": 1}, {"byte": 9704}, "ends before 3 profiles"),
+    ("none.sdf", sdf(np.zeros((1, 0)), STEP, Z_STEP), {}, {}, "0 points were measured"),
+    ("still.sdf", sdf(SURFACE, 0.0, Z_STEP), {"row": 1}, {}, "in steps of 0"),
+    ("nan.sdf", sdf(SURFACE, STEP, np.nan), {"row": 1}, {}, "in steps of nan"),
+    ("packed.sdf", sdf(SURFACE, STEP, Z_STEP, compression=1), {"row": 1}, {}, "Compression 1"),
+    ("type.sdf", sdf(SURFACE, STEP, Z_STEP, code=3), {"row": 1}, {}, "DataType 3.*one of 5, 6, 7"),
+    ("check.sdf", sdf(SURFACE, STEP, Z_STEP, check=1), {"row": 1}, {}, "CheckType 1"),
+    ("cut2.sdf", LINES[:9999].encode(), {"row": 1}, {"line": 98}, "heights, for 3 profiles of 401"),
+    ("field.sdf", NO_X, {"row": 1}, {"line": 13}, "Xscale in the header is missing"),
+    ("count.sdf", NO_COUNT, {"row": 1}, {"line": 13}, "NumPoints in the header is 4e2"),
+    ("minus.sdf", MINUS, {}, {"line": 255}, "-3 profiles of -401 points"),
+    ("word.sdf", ZERO, {"row": 1}, {"line": 55}, "'zero' is no height"),
+    ("only.sdf", b"aISO-1.0", {}, {"line": 1}, "is missing"),
+    ("cut.x3p", x3p(SURFACE, STEP)[:-30], {"row": 1}, {}, "no whole ZIP archive"),
+    ("head.x3p", x3p(SURFACE, STEP)[:300], {"row": 1}, {}, "no whole ZIP archive"),
+    ("empty.x3p", packed({"other.xml": b""}), {}, {}, "main.xml is missing"),
+    ("bad.x3p", packed({"main.xml": b"<a><b></a>"}), {}, {}, "main.xml is no XML: mismatched tag: line 1"),
+    ("laughs.x3p", packed({"main.xml": b"<!DOCTYPE a [<!ENTITY b 'b'>]><a>&b;</a>"}), {}, {}, "document type"),
+    ("cloud.x3p", x3p(SURFACE, STEP, feature="PCL"), {"row": 1}, {}, "feature type 'PCL'"),
+    ("more.x3p", x3p(SURFACE, STEP, count=402), {"row": 1}, {}, "data.bin has 9624 bytes: 9648 are expected"),
+    ("bomb.x3p", x3p(SURFACE, STEP, count=10**12), {"row": 1}, {}, "data.bin has 9624 bytes"),
+    ("none.x3p", x3p(SURFACE, STEP, count=0), {"row": 1}, {}, "3 profiles of 0 points"),
+    ("word.x3p", x3p(SURFACE, STEP, count="many"), {"row": 1}, {}, "SizeX is 'many'"),
+    ("step.x3p", x3p(SURFACE, 0.0), {"row": 1}, {}, "in steps of 0"),
+    ("offset.x3p", x3p(SURFACE, STEP, x_offset=np.nan), {"row": 1}, {}, "coordinates from nan"),
+    ("coding.x3p", packed({"main.xml": b"<?xml version='1.0' encoding='foo'?><a/>"}), {}, {}, "main.xml is no XML"),
+    ("wide.x3p", packed({"main.xml": b"<?xml version='1.0' encoding='utf-32'?><a/>"}), {}, {}, "main.xml is no XML"),
+    ("list.x3p", edited(DataLink="DataList"), {"row": 1}, {}, "read are those in a binary part"),
+    ("height.x3p", edited(**{"<AxisType>A": "<AxisType>I"}), {"row": 1}, {}, "stored are {}: Z must be"),
+    ("type.x3p", edited(**{"A</AxisType><DataType>D": "A</AxisType><DataType>Q"}), {"row": 1}, {}, "'Z': 'Q'"),
+    ("axis.x3p", x3p(SURFACE, STEP, kind="D", x_type="A"), {"row": 1}, {}, "19248 are expected"),
+    ("flat.x3p", x3p(SURFACE[:1], STEP), {"row": 2}, {}, "row is 2"),
+]
+
+
+@pytest.mark.parametrize(("name", "content", "given", "place", "reason"), FAULTS, ids=lambda case: str(case)[:20])
+def test_faults(
+    name: str, content: bytes, given: dict[str, Any], place: dict[str, int], reason: str, tmp_path: Path
+) -> None:
+    file = written(tmp_path, name, content)
+    with pytest.raises(lc.errors.MeasuredFileError, match=reason) as raised:
+        lc.read_profile(file, **given)
+    error = raised.value
+    assert error.path == str(file) and str(error).startswith(str(file)) and "\n" not in str(error)
+    assert {"line": error.line, "byte": error.byte} == {"line": None, "byte": None, **place}
+    again = pickle.loads(pickle.dumps(error))
+    assert str(again) == str(error) and vars(again) == vars(error)
+
+
+def test_a_part_that_is_too_large_is_not_unpacked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("linecontact.surfaces._MOST_BYTES", 10**6)
+    monkeypatch.setattr(zipfile.ZipFile, "read", lambda *_: pytest.fail("unpacked"))
+    file = written(tmp_path, "bomb.x3p", packed({"main.xml": bytes(2 * 10**6)}))
+    assert file.stat().st_size < 10**4
+    with pytest.raises(lc.errors.MeasuredFileError, match="main.xml has 2000000 bytes: .* at most 1000000"):
+        lc.read_profile(file)
+
+
+def test_random_damage_is_told(tmp_path: Path) -> None:
+    random = np.random.RandomState(1)
+    whole = [sdf(SURFACE, STEP, Z_STEP), sdf_text(SURFACE, STEP, Z_STEP).encode(), x3p(SURFACE, STEP, Z_STEP, "L")]
+    for content in whole:
+        for _ in range(300):
+            damaged = bytearray(content)
+            places = random.randint(0, min(len(damaged), 1200), size=3)
+            damaged[places[0]] ^= 1 << random.randint(8)
+            damaged[places[1]] = random.randint(256)
+            file = written(tmp_path, "damaged", bytes(damaged[: len(damaged) - random.choice([0, 0, places[2]])]))
+            try:
+                points = lc.read_profile(file, row=random.randint(1, 4)).points
+            except lc.errors.MeasuredFileError:
+                continue
+            assert np.all(np.isfinite(points)) and np.all(np.diff(points[:, 0]) > 0)
