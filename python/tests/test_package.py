@@ -85,9 +85,10 @@ def test_the_code_of_the_readme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     assert (tmp_path / "roller.png").exists()
 
 
-def test_the_tutorial_prints_what_it_says() -> None:
+def test_the_tutorial_prints_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Runs the blocks of `docs/python.md` one after the other, and compares the text below each."""
     pytest.importorskip("scipy")
+    monkeypatch.chdir(tmp_path)
     tutorial = (HERE.parents[1] / "docs" / "python.md").read_text()
     blocks = re.findall(r"```python\n(.*?)```\n(?:```text\n(.*?)```)?", tutorial, re.DOTALL)
     assert len(blocks) == tutorial.count("```python") > 10
@@ -97,6 +98,13 @@ def test_the_tutorial_prints_what_it_says() -> None:
         with contextlib.redirect_stdout(printed):
             exec(code, known)
         assert printed.getvalue() == text, code
+
+
+def test_documentation_finds_all_types(tmp_path: Path) -> None:
+    pytest.importorskip("pdoc")
+    command = [sys.executable, "-m", "pdoc", "--docformat", "numpy", "--output-directory", str(tmp_path), "linecontact"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "Warn" not in done.stderr, done.stderr
 
 
 def test_types() -> None:

@@ -1,0 +1,142 @@
+"""The console command `linecontact`: solves a scene file, and prints or writes its results."""
+
+from __future__ import annotations
+
+import argparse
+import io
+import math
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError, LineContactError, SceneFileError
+from .exploring import explore
+from .exporting import write_csv, write_npz, write_vtk
+from .files import Scene
+from .sheet import Row, described, sheet, solved, table
+
+# Exit codes; 2 is that of argparse.
+_OK, _FAILED, _USAGE, _SCENE, _OUTPUT, _INTERRUPTED = 0, 1, 2, 3, 4, 130
+_CODES = """exit codes:
+  0  all contacts were solved
+  1  a contact was not found, or is none
+  2  wrong arguments, or a control that is invalid
+  3  the scene file is missing or faulty
+  4  a file cannot be written"""
+
+# Time between two lines of progress, in seconds: short for the eye, and long for a terminal.
+_PROGRESS = 0.2
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command, and returns its exit code."""
+    parser = argparse.ArgumentParser("linecontact", description="Plane line contact of two bodies.")
+    parser.add_argument("--version", action="version", version=version("linecontact"))
+    of = parser.add_subparsers(required=True, metavar="solve")
+    words = argparse.RawDescriptionHelpFormatter
+    solve = of.add_parser("solve", help="solve a scene file", epilog=_CODES, formatter_class=words)
+    solve.add_argument("scene", help="scene file, .toml or .json")
+    solve.add_argument("--load", type=_loads, help="load, or first:last:count, in place of the controls of the scene")
+    solve.add_argument("--yield-stress", type=_positive, help="yield stress, for the safety against yield")
+    solve.add_argument("--csv", type=Path, help="write a table of all results")
+    solve.add_argument("--npz", type=Path, help="write results, pressures and stresses for NumPy")
+    solve.add_argument("--vtk", type=Path, help="write the stress below the surface for ParaView")
+    solve.add_argument("--page", type=Path, help="write a page with a slider for the load")
+    given = parser.parse_args(arguments)
+    try:
+        return _solve(given, solve)
+    except KeyboardInterrupt:
+        return _INTERRUPTED
+    except OSError as error:
+        # Whoever reads the results has ended, or has no room.
+        return _say(f"cannot write the results: {error.strerror}", _OUTPUT)
+
+
+def _positive(text: str) -> float:
+    try:
+        if 0.0 < (value := float(text)) < math.inf:
+            return value
+    except ValueError:
+        pass
+    raise argparse.ArgumentTypeError(f"{text!r} is no positive number")
+
+
+def _loads(text: str) -> list[float]:
+    try:
+        first, last, count = map(float, text.split(":")) if ":" in text else (float(text), float(text), 1.0)
+        if math.isfinite(first) and math.isfinite(last) and count.is_integer() and count >= 1:
+            return [float(load) for load in np.linspace(first, last, int(count))]
+    except ValueError:
+        pass
+    raise argparse.ArgumentTypeError(f"{text!r}: give a load, as 500, or first:last:count, as 100:5000:20")
+
+
+def _say(message: str, code: int) -> int:
+    print("linecontact:", " ".join(message.split()), file=sys.stderr)
+    return code
+
+
+def _solve(given: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
+    try:
+        scene = Scene.from_file(given.scene)
+    except SceneFileError as error:
+        return _say(str(error), _SCENE)
+    except (LineContactError, OSError) as error:
+        return _say(f"{given.scene}: {getattr(error, 'strerror', error)}", _SCENE)
+    controls: Sequence[Mapping[str, Any]] = [{"load": load} for load in given.load or ()] or scene.controls
+    if not controls:
+        parser.error(f"{given.scene} has no controls: give --load")
+    if given.page and any({"moment", "centre_of_pressure"} & control.keys() for control in controls):
+        parser.error("--page has a slider for the load: it does not show moments")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
+    rows = _rows(scene, controls, given.yield_stress)
+    if len(rows) > 1:
+        print(table(scene, rows, given.yield_stress), flush=True)
+    elif rows[0].solution is not None:
+        print(sheet(scene, rows[0], given.yield_stress), flush=True)
+    codes = [_written(given, scene, rows)]
+    for row in rows:
+        if row.error is not None:
+            code = _USAGE if isinstance(row.error, InputError) else _FAILED
+            codes.append(_say(f"{given.scene}: {described(row.control)}: {row.error}", code))
+    return max(codes)
+
+
+def _rows(scene: Scene, controls: Sequence[Mapping[str, Any]], yield_stress: float | None) -> list[Row]:
+    """Solves the controls one by one: `sweep` has no von Mises stress, and controls of one kind."""
+    rows, due, shows = list[Row](), time.monotonic() + _PROGRESS, sys.stderr.isatty()
+    for control in controls:
+        rows.append(solved(scene, control, yield_stress))
+        if shows and time.monotonic() >= due:
+            due += _PROGRESS
+            print(f"\r{len(rows)} of {len(controls)} solved", end="", file=sys.stderr, flush=True)
+    print("\r" + 40 * " " + "\r" if shows else "", end="", file=sys.stderr, flush=True)
+    return rows
+
+
+def _written(given: argparse.Namespace, scene: Scene, rows: Sequence[Row]) -> int:
+    """Writes the files that are asked for."""
+    units = [scene.units.get(quantity, "") for quantity in ("length", "pressure", "load")]
+    loads = [row.solution.load for row in rows if row.solution is not None]
+    title = scene.title or "Line contact"
+    for path, write in (
+        (given.csv, lambda path: write_csv(path, rows, {"angle": "rad", **scene.units})),
+        (given.npz, lambda path: write_npz(path, rows)),
+        (given.vtk, lambda path: write_vtk(path, rows)),
+        (given.page if loads else None, lambda path: explore(scene.contact, loads, path, title=title, units=units)),
+    ):
+        try:
+            if path is not None:
+                write(path)
+        except OSError as error:
+            return _say(f"cannot write {path}: {error.strerror or error}", _OUTPUT)
+        except LineContactError as error:
+            return _say(f"cannot write {path}: {error}", _FAILED)
+    return _OK

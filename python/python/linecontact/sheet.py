@@ -1,0 +1,226 @@
+"""Result sheets of the console command, for one control and for several."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from .contact import Contact
+from .errors import LineContactError, SingularError
+from .solution import Solution, StressPeak
+
+if TYPE_CHECKING:
+    from .files import Scene
+
+# Numbers of a row: the quantity that gives the unit, and the label in the sheet of one row.
+NUMBERS = {
+    "load": ("load", "load"),
+    "left": ("length", "contact from"),
+    "right": ("length", "contact to"),
+    "half_width": ("length", "half-width"),
+    "centre_of_pressure": ("length", "centre of pressure"),
+    "peak_pressure": ("pressure", "largest pressure"),
+    "mean_pressure": ("pressure", "mean pressure"),
+    "tilt": ("angle", "tilt of the upper body"),
+    "approach": ("length", "approach of the bodies"),
+    "stiffness": ("pressure", "stiffness"),
+    "max_shear": ("pressure", "largest shear in plane"),
+    "von_mises": ("pressure", "largest von Mises stress"),
+    "tresca": ("pressure", "largest Tresca stress"),
+    "safety_von_mises": ("", "safety by von Mises"),
+    "safety_tresca": ("", "safety by Tresca"),
+    **{f"{name}_x": ("length", "") for name in ("peak", "max_shear", "von_mises", "tresca")},
+    **{f"{name}_depth": ("length", "") for name in ("max_shear", "von_mises", "tresca")},
+    "limits_error": ("", ""),
+    "peak_error": ("pressure", ""),
+    "half_width_deviation": ("length", ""),
+    "peak_deviation": ("pressure", ""),
+}
+
+# Headings of a table, by number; the last ones are left out where they do not fit.
+_TABLE = {
+    "load": "load", "left": "from", "right": "to", "peak_pressure": "peak", "approach": "approach",
+    "von_mises": "v. Mises", "safety_von_mises": "S Mises", "safety_tresca": "S Tresca", "max_shear": "shear",
+    "max_shear_depth": "at depth", "mean_pressure": "mean", "stiffness": "stiffness",
+}  # fmt: skip
+
+# Number of columns of a sheet, and of each number of a table.
+_WIDTH, _CELL = 100, 10
+
+# Largest x that counts as 0, in half-widths: places of largest values have half of the digits.
+_ROUNDING = 1e-7
+
+# Relative error below which a sheet does not tell: digits that differ from machine to machine.
+_EXACT = 1e-12
+
+
+class Row(NamedTuple):
+    """A control with its solution and numbers, or with its error."""
+
+    control: Mapping[str, Any]
+    solution: Solution | None
+    numbers: dict[str, float]
+    error: LineContactError | None
+
+
+def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None) -> Row:
+    """Solves a contact, and returns its numbers: NaN if they are not known, infinite at corners."""
+    numbers = dict.fromkeys(NUMBERS, math.nan)
+    try:
+        solution = scene.contact.solve(**control)
+    except LineContactError as error:
+        return Row(control, None, numbers, error)
+
+    def note(of: Callable[[], Iterable[float]], *names: str) -> None:
+        try:
+            numbers.update(zip(names, of(), strict=True))
+        except SingularError as error:
+            # The names of a place, and of a value, which is infinite there.
+            if names[1:]:
+                numbers.update({**dict.fromkeys(names, 0.0), names[0]: error.x, names[-1]: math.inf})
+        except LineContactError:
+            pass
+
+    ratio, to = poisson_ratio(scene.contact), control.get("references", scene.references)
+    numbers.update(load=solution.load, left=-solution.b, right=solution.a, half_width=solution.half_width)
+    numbers.update(mean_pressure=solution.mean_pressure)
+    if solution.limits_error is not None:
+        numbers.update(limits_error=solution.limits_error)
+    if solution.tilt != 0.0:
+        numbers.update(tilt=solution.tilt)
+    note(lambda: [solution.centre_of_pressure()], "centre_of_pressure")
+    note(solution.peak, "peak_x", "peak_pressure")
+    note(lambda: [solution.pressure_estimate(numbers["peak_x"])[1]], "peak_error")
+    note(lambda: solution.uncertainty()[2:], "half_width_deviation", "peak_deviation")
+    note(solution.max_shear, "max_shear_x", "max_shear_depth", "max_shear")
+    note(lambda: largest_tresca(solution, ratio), "tresca_x", "tresca_depth", "tresca")
+    if ratio is not None:
+        note(partial(solution.max_von_mises, ratio), "von_mises_x", "von_mises_depth", "von_mises")
+    if to is not None:
+        note(lambda: [solution.approach(to).bodies], "approach")
+        note(lambda: [solution.stiffness(to)], "stiffness")
+    if yield_stress is not None:
+        numbers.update({f"safety_{of}": yield_stress / numbers[of] for of in ("von_mises", "tresca")})
+    for name in ("centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
+        numbers[name] = 0.0 if abs(numbers[name]) < _ROUNDING * solution.half_width else numbers[name]
+    return Row(control, solution, numbers, None)
+
+
+def poisson_ratio(contact: Contact) -> float | None:
+    """Returns the least ratio of the elastic bodies, the worst for von Mises and Tresca.
+
+    It is 0 in plane stress, where no stress acts along z, and None without materials.
+    """
+    settings = contact._settings
+    elastic = [float(ratio) for modulus, ratio in settings["materials"] or () if math.isfinite(modulus)]
+    return 0.0 if elastic and settings["plane"] == "stress" else min(elastic, default=None)
+
+
+def largest_tresca(solution: Solution, ratio: float | None) -> StressPeak:
+    """Returns the largest difference of two principal stresses, and its place.
+
+    A Poisson's ratio below 1/4 can make it larger than twice the largest shear in the plane.
+    """
+    shear = solution.max_shear()
+    best = [StressPeak(shear.x, shear.depth, 2.0 * shear.value)]
+    for on in solution.intervals if ratio is not None else ():
+        x, depth, reach = on.centre, on.half_width, on.half_width
+        # Windows of 17 by 17 places, each half as wide as the one before, until the value is exact.
+        for _ in range(16):
+            places = x + reach * np.linspace(-1.0, 1.0, 17)
+            depths = np.maximum(depth + reach * np.linspace(-1.0, 1.0, 17), 0.0)
+            stress = solution.stress(places, depths[:, None])
+            spread = np.ptp([*stress.principal(), stress.sigma_z(ratio or 0.0)], axis=0)
+            row, column = np.unravel_index(np.argmax(spread), spread.shape)
+            x, depth, reach = float(places[column]), float(depths[row]), 0.5 * reach
+        best.append(StressPeak(x, depth, float(spread[row, column])))
+    return max(best, key=lambda one: one.value)
+
+
+def described(control: Mapping[str, Any]) -> str:
+    """Returns a control in words, without its references."""
+    return ", ".join(f"{name} = {value:g}" for name, value in control.items() if name != "references")
+
+
+def _line(label: str, content: str) -> str:
+    line = f"{label:<26}{content}".rstrip()
+    return line if len(line) <= _WIDTH else line[: _WIDTH - 3] + "..."
+
+
+def sheet(scene: Scene, row: Row, yield_stress: float | None) -> str:
+    """Returns the result sheet of one solution."""
+    contact, numbers = scene.contact, row.numbers
+    units = {"": "", "length": "", "pressure": "", "load": "", "angle": "rad", **scene.units}
+    pressure = units["pressure"]
+    lines = [scene.title, "", _line("lower body", str(contact.lower)), _line("upper body", str(contact.upper))]
+    for name, (modulus, ratio) in zip(("lower", "upper"), contact._settings["materials"] or (), strict=False):
+        elastic = f"E = {modulus:g} {pressure}, Poisson's ratio {ratio:g}"
+        lines.append(_line(f"{name} material", elastic if math.isfinite(modulus) else "rigid"))
+    lines += [_line("prescribed", described(row.control)), ""]
+    for name, (kind, label) in NUMBERS.items():
+        if label and not math.isnan(numbers[name]):
+            x, depth = (numbers.get(f"{name.removesuffix('_pressure')}_{of}", math.nan) for of in ("x", "depth"))
+            note = f"against yield at {yield_stress:g} {pressure}" if name.startswith("safety") else ""
+            note += "" if math.isnan(x) else f"at x = {x:.4g}"
+            note += "" if math.isnan(depth) else f", depth {depth:.4g}"
+            text = f"{numbers[name]:.6g}" if kind else f"{numbers[name]:.3g}"
+            whole, point, digits = text.partition(".")
+            lines.append(_line(label, f"{whole:>8}{point + digits:<8}{units[kind]:<8}{note}"))
+    return "\n".join([*lines[0 if scene.title else 2 :], "", *_notes(row, units)])
+
+
+def _notes(row: Row, units: dict[str, str]) -> list[str]:
+    """Returns the errors of a solution, and the doubts that it leaves."""
+    numbers, solution = row.numbers, row.solution
+    assert solution is not None
+
+    def text(name: str) -> str:
+        return f"{numbers[name]:.1g} {units[NUMBERS[name][0]]}".rstrip()
+
+    deviation = f"half-width +- {text('half_width_deviation')}, largest pressure +- {text('peak_deviation')}"
+    checked = "no tension in the contact, no overlap beside it" if solution.is_checked else "no, see certify"
+    errors = [numbers["limits_error"], numbers["peak_error"] / numbers["peak_pressure"]]
+    error = 10.0 ** math.ceil(math.log10(max([one for one in errors if one > _EXACT], default=_EXACT)))
+    several = f"{len(solution.intervals)} contacts: the limits are those of the first and the last"
+    notes = [
+        (all(one >= 0.0 for one in errors), "numerical error", f"below {error:.0e} of half-width and largest pressure"),
+        (numbers["half_width_deviation"] > 0.0, "noise of the points", deviation),
+        (True, "checked", checked),
+        (len(solution.intervals) > 1, "note", several),
+        (math.isnan(numbers["von_mises"]), "note", "without materials Tresca is for Poisson's ratios from 1/4"),
+        (not solution.contact.has_modulus, "note", "no modulus is given: pressures are those of kappa = 1"),
+        (solution.is_steep, "note", "slopes exceed 0.3, too steep for half-planes: check the units"),
+    ]
+    return [_line(label, words) for holds, label, words in notes if holds]
+
+
+def table(scene: Scene, rows: Sequence[Row], yield_stress: float | None) -> str:
+    """Returns a table of several solutions: a line for each, and as many numbers as fit."""
+    loads = all(row.control.keys() == {"load"} for row in rows)
+    first = [f"{row.control['load']:g}" if loads else described(row.control) for row in rows]
+    columns = [["load", scene.units.get("load", ""), *first] if loads else ["prescribed", "", *first]]
+    wide = max(map(len, columns[0]))
+    for name, head in list(_TABLE.items())[loads:]:
+        cells = _aligned([row.numbers[name] for row in rows])
+        if any(cell != "nan" for cell in cells) and wide + _CELL * len(columns) <= _WIDTH:
+            columns.append([head, scene.units.get(NUMBERS[name][0], ""), *cells])
+    lines = [scene.title, ""] if scene.title else []
+    for words, error in zip(zip(*columns, strict=True), [None, None, *(row.error for row in rows)], strict=True):
+        cells = [f"{cell:>{_CELL}}" for cell in words[1:]] if error is None else ["  ", type(error).__name__]
+        lines.append(f"{words[0]:>{wide}}{''.join(cells)}".rstrip())
+    if yield_stress is not None:
+        lines += ["", f"S: safety against yield at {yield_stress:g} {scene.units.get('pressure', '')}".rstrip()]
+    return "\n".join(lines)
+
+
+def _aligned(values: Sequence[float]) -> list[str]:
+    """Returns numbers of four or five digits, with equal decimals where their sizes allow it."""
+    sizes = [abs(value) for value in values if math.isfinite(value) and value != 0.0]
+    if not sizes or not 1e-2 < min(sizes) <= max(sizes) < min(1e6, 100.0 * min(sizes)):
+        return [text if len(text := f"{value:.4g}") < _CELL else f"{value:.3g}" for value in values]
+    decimals = max(0, 4 - math.floor(math.log10(max(sizes))))
+    return [f"{value:.{decimals}f}" for value in values]
