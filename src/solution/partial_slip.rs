@@ -18,8 +18,8 @@
 //! P* is found from the samples of P, without an evaluation, unless a stretched body sticks outside
 //! the sampled range.
 
-use super::stress::{Stress, Subsurface};
-use super::{Pressure, Solution};
+use super::stress::{Stress, StressPeak, Subsurface};
+use super::{Extremum, Pressure, Solution};
 use crate::{Body, ContactError, Interval, Real, SolveError};
 
 /// Loads along the contact, and its friction.
@@ -118,15 +118,16 @@ impl<'b, T: Real> PartialSlip<'b, T> {
     /// # Errors
     /// Those of [`Solution::subsurface`].
     pub fn subsurface(&self, body: Body) -> Result<SlipStress<'_, T>, ContactError<T>> {
-        let parts = [self.normal.subsurface()?, self.stick.subsurface()?];
         let friction = self.signed_friction();
         let friction = if body == Body::Lower { friction } else { -friction };
-        Ok(SlipStress { parts, friction })
+        let normal = self.normal.subsurface()?.friction(friction)?;
+        Ok(SlipStress(normal.less(self.stick.subsurface()?)))
     }
 
-    /// Returns μ with the sign of the force on body 1.
+    /// Returns μ with the sign of the force on body 1. Without a force there is no traction.
     fn signed_friction(&self) -> T {
-        if self.shear.force < T::zero() { -self.shear.friction } else { self.shear.friction }
+        let Shear { friction, force, .. } = self.shear;
+        if force.is_zero() { force } else { friction.copysign(force) }
     }
 }
 
@@ -166,12 +167,27 @@ impl<T: Real> Traction<'_, T> {
 }
 
 /// Stress below a contact that slips in part: [`PartialSlip::subsurface`].
+///
+/// Cracks of fretting start where the surface is stretched most: at the edge of the contact that
+/// the traction pulls away from.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Body, Contact, Control, Flat, Shear};
+///
+/// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
+/// let contact = Contact::new(&Flat, &body)?.contact_modulus(1.0);
+/// let shear = Shear { friction: 0.4, force: 0.03, tension: 0.0 };
+/// let slip = contact.partial_slip(Control::Load(0.1), shear)?;
+/// let tension = slip.subsurface(Body::Lower)?.max_tension()?;
+/// assert_eq!(tension.x, -slip.normal().b());
+/// // 2 μ p₀ sqrt(Q/(μF))
+/// let peak = slip.normal().peak()?.pressure;
+/// assert!((tension.value / (2.0 * 0.4 * peak * 0.75f64.sqrt()) - 1.0).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
-pub struct SlipStress<'p, T: Real> {
-    /// Stress below the contacts of P and of P*.
-    parts: [Subsurface<'p, T>; 2],
-    friction: T,
-}
+pub struct SlipStress<'p, T: Real>(Subsurface<'p, T>);
 
 impl<T: Real> SlipStress<'_, T> {
     /// Returns the stress at any x, at any depth from zero on.
@@ -179,9 +195,34 @@ impl<T: Real> SlipStress<'_, T> {
     /// # Errors
     /// As [`Subsurface::at`].
     pub fn at(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
-        let [normal, stick] = &self.parts;
-        let [pressed, along] = normal.parts(x, depth, true)?;
-        let [_, less] = stick.parts(x, depth, true)?;
-        Ok(pressed.with(self.friction, along).with(-self.friction, less))
+        self.0.at(x, depth)
+    }
+
+    /// Finds the largest shear stress in the plane, as [`Subsurface::max_shear`] does, with the
+    /// limits of the stick zones among the places where it is looked for.
+    ///
+    /// # Errors
+    /// As [`Subsurface::max_shear`]. Where the slope of the gap jumps, the shear is infinite only
+    /// if the bodies slip there.
+    pub fn max_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
+        self.0.max_shear()
+    }
+
+    /// Finds the largest von Mises equivalent stress, in the same way.
+    ///
+    /// # Errors
+    /// As [`max_shear`](Self::max_shear), and where the slope of the gap jumps, unless ν is 1/2;
+    /// [`InputError::InvalidPoissonRatio`](crate::InputError::InvalidPoissonRatio).
+    pub fn max_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
+        self.0.max_von_mises(poisson)
+    }
+
+    /// Finds the largest tension along the surface, as [`Subsurface::max_tension`] does. A tension
+    /// that stretches the body has to be added.
+    ///
+    /// # Errors
+    /// As [`Subsurface::max_tension`].
+    pub fn max_tension(&self) -> Result<Extremum<T>, ContactError<T>> {
+        self.0.max_tension()
     }
 }

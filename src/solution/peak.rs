@@ -187,9 +187,9 @@ pub(super) fn places<T: Real>(
 /// Grid point with less pressure on either side, and a bound of the pressure between its
 /// neighbours.
 pub(super) struct Rise<T> {
-    bracket: [T; 2],
+    pub bracket: [T; 2],
     pub highest: T,
-    bound: T,
+    pub bound: T,
 }
 
 /// Lists the points of a grid `[x, P]` with less pressure on either side, the highest bound first.
@@ -205,6 +205,26 @@ pub(super) fn rises<T: Real>(grid: &[[T; 2]]) -> Vec<Rise<T>> {
     let mut rises: Vec<_> = (0..grid.len()).filter_map(rise).collect();
     rises.sort_by(|one, other| other.bound.partial_cmp(&one.bound).unwrap_or(Ordering::Equal));
     rises
+}
+
+/// Narrows a bracket of a maximum to half the digits of x, which are enough as the function is flat
+/// there.
+pub(super) fn narrow<T: Real>(
+    [mut lo, mut hi]: [T; 2],
+    mut values: impl FnMut(&[T], &mut [T]) -> Result<(), ContactError<T>>,
+) -> Result<T, ContactError<T>> {
+    let mut highest = T::of(0.5) * (lo + hi);
+    let resolution = T::epsilon().sqrt() * (hi - lo);
+    while hi - lo > resolution {
+        let step = (hi - lo) / T::count(PARTS);
+        let x: [T; PARTS - 1] = std::array::from_fn(|i| lo + step * T::count(i + 1));
+        let mut found = [T::zero(); PARTS - 1];
+        values(&x, &mut found)?;
+        let higher = |best: usize, i: usize| if found[i] > found[best] { i } else { best };
+        highest = x[(0..x.len()).fold(0, higher)];
+        (lo, hi) = (highest - step, highest + step);
+    }
+    Ok(highest)
 }
 
 /// Search for the largest pressure.
@@ -245,21 +265,12 @@ impl<T: Real> Search<'_, '_, T> {
         Ok(())
     }
 
-    /// Narrows a bracket to half the digits of x, which are enough as the pressure is flat at a
-    /// maximum.
-    fn climb(&mut self, [mut lo, mut hi]: [T; 2]) -> Result<(), ContactError<T>> {
-        let mut highest = T::of(0.5) * (lo + hi);
-        let resolution = T::epsilon().sqrt() * (hi - lo);
-        while hi - lo > resolution {
-            let step = (hi - lo) / T::count(PARTS);
-            let x: [T; PARTS - 1] = std::array::from_fn(|i| lo + step * T::count(i + 1));
-            let mut pressures = [T::zero(); PARTS - 1];
-            self.integrator.pressures(self.gap, self.load_case, &x, &mut pressures, self.cost)?;
-            let higher =
-                |best: usize, i: usize| if pressures[i] > pressures[best] { i } else { best };
-            highest = x[(0..x.len()).fold(0, higher)];
-            (lo, hi) = (highest - step, highest + step);
-        }
+    /// Finds the maximum in a bracket, and takes it into account.
+    fn climb(&mut self, bracket: [T; 2]) -> Result<(), ContactError<T>> {
+        let Self { integrator, gap, load_case, cost, .. } = self;
+        let highest = narrow(bracket, |x, pressures| {
+            integrator.pressures(gap, load_case, x, pressures, cost)
+        })?;
         self.meet(highest)?;
         Ok(())
     }

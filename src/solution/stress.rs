@@ -51,6 +51,7 @@
 //! ```
 
 mod largest;
+mod tension;
 
 use super::pressure_integral::Density;
 use crate::gap::Sampler;
@@ -145,6 +146,8 @@ pub struct Subsurface<'p, T: Real> {
     pressure: Pressure<'p, T>,
     transform: CauchyTransform<T>,
     friction: T,
+    /// Stress below the contact under P*, if the contact sticks there: the traction is μ (P - P*).
+    stick: Option<Box<Self>>,
 }
 
 /// Largest stress and its place.
@@ -168,7 +171,7 @@ impl<T: Real> Solution<'_, T> {
     pub fn subsurface(&self) -> Result<Subsurface<'_, T>, ContactError<T>> {
         let (pressure, friction) = (self.pressure()?, T::zero());
         let transform = pressure.cauchy_transform()?;
-        Ok(Subsurface { solution: self, pressure, transform, friction })
+        Ok(Subsurface { solution: self, pressure, transform, friction, stick: None })
     }
 }
 
@@ -193,12 +196,21 @@ impl<T: Real> Subsurface<'_, T> {
     /// surface, with friction, those of sampling the gap.
     pub fn at(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
         let [normal, along] = self.parts(x, depth, !self.friction.is_zero())?;
-        Ok(normal.with(self.friction, along))
+        let stress = normal.with(self.friction, along);
+        match &self.stick {
+            Some(stick) => Ok(stress.with(-self.friction, stick.parts(x, depth, true)?[1])),
+            None => Ok(stress),
+        }
+    }
+
+    /// Takes off the traction μ P* of the contact that sticks.
+    pub(super) fn less(self, stick: Self) -> Self {
+        Self { stick: Some(Box::new(stick)), ..self }
     }
 
     /// Returns the stress under the pressure, and the stress under an equal traction, which is
     /// valid on the surface only if `with_traction`.
-    pub(super) fn parts(
+    fn parts(
         &self,
         x: T,
         depth: T,
@@ -227,6 +239,11 @@ impl<T: Real> Subsurface<'_, T> {
         let mut pressure = [T::zero()];
         if Interval::find(self.solution.intervals(), x).1.is_some() {
             self.pressure.values(&[x], &mut pressure)?;
+            // Next to an edge a rule without panels has no correct digit.
+            if self.solution.integrator.panels().is_none() && pressure[0].is_finite() {
+                let depth = T::epsilon().powi(3) * self.hull().half_width();
+                pressure = [-T::frac_1_pi() * self.transform.at(x, depth)[0].im];
+            }
         }
         let free = self.solution.found.free;
         let infinite = (x == left && !free.left) || (x == right && !free.right);

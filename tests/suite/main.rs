@@ -43,6 +43,7 @@ mod estimates;
 mod files;
 mod flanks;
 mod flats;
+mod fretting;
 mod fuzz_regressions;
 mod held_corners;
 mod held_widths;

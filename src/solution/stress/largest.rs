@@ -43,10 +43,8 @@ impl<T: Real> Subsurface<'_, T> {
     /// [`SolveError::Cancelled`](crate::SolveError::Cancelled) by the function that
     /// [watches](crate::Contact::watch).
     pub fn max_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
-        self.check_edges()?;
-        if !self.friction.is_zero() {
-            self.check_breakpoints()?;
-        }
+        self.check_edges(|_, _| true)?;
+        self.check_tips(false)?;
         self.largest(|stress| Ok(stress.max_shear()))
     }
 
@@ -57,32 +55,43 @@ impl<T: Real> Subsurface<'_, T> {
     /// unless ν is 1/2; [`InputError::InvalidPoissonRatio`].
     pub fn max_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
         let poisson = checked_ratio(poisson)?;
-        self.check_edges()?;
-        if !(self.friction.is_zero() && poisson == T::of(0.5)) {
-            self.check_breakpoints()?;
-        }
+        self.check_edges(|_, _| true)?;
+        self.check_tips(poisson != T::of(0.5))?;
         self.largest(|stress| stress.von_mises(poisson))
     }
 
-    /// Refuses edges at which all stress is infinite.
-    fn check_edges(&self) -> Result<(), ContactError<T>> {
+    /// Refuses edges of infinite pressure, if the stress is infinite for a side and its strength.
+    pub(super) fn check_edges(
+        &self,
+        is_infinite: impl Fn(Side, T) -> bool,
+    ) -> Result<(), ContactError<T>> {
         let (found, hull) = (self.solution.found, self.hull());
         let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
         // If both edges are singular, the error names the right one.
         for side in [Side::Right, Side::Left] {
-            if !found.free[side] && found.strengths[side].abs() > least {
+            let strength = found.strengths[side];
+            if !found.free[side] && strength.abs() > least && is_infinite(side, strength) {
                 return Err(EvaluationError::Singular { x: hull[side] }.into());
             }
         }
         Ok(())
     }
 
-    /// Refuses breakpoints at which the pressure is infinite.
-    fn check_breakpoints(&self) -> Result<(), ContactError<T>> {
-        match self.tips()?.first() {
-            Some(&x) => Err(EvaluationError::Singular { x }.into()),
+    /// Refuses breakpoints at which the pressure is infinite: all of them, or those that slip.
+    fn check_tips(&self, all: bool) -> Result<(), ContactError<T>> {
+        if !all && self.friction.is_zero() {
+            return Ok(());
+        }
+        let sticks = |x| self.stick_zones().any(|zone| zone.contains(x));
+        match self.tips()?.into_iter().find(|&x| all || !sticks(x)) {
+            Some(x) => Err(EvaluationError::Singular { x }.into()),
             None => Ok(()),
         }
+    }
+
+    /// Lists the intervals that stick, from left to right.
+    fn stick_zones(&self) -> impl Iterator<Item = Interval<T>> {
+        self.stick.iter().flat_map(|stick| stick.solution.intervals().iter().copied())
     }
 
     /// Lists the breakpoints at which the pressure is infinite, from left to right.
@@ -116,13 +125,25 @@ impl<T: Real> Subsurface<'_, T> {
     /// Lists places on the surface of a contact: its grid of pressures, and the places where stress
     /// concentrates.
     fn features(&self, contact: usize, on: Interval<T>) -> Result<Features<T>, ContactError<T>> {
-        let grid = places(&**self.solution.integrator, &self.solution.gap, contact, on);
+        let grid = self.grid(contact, on);
         let mut pressures = vec![T::zero(); grid.len()];
         self.pressure.values(&grid, &mut pressures)?;
         let pressures: Vec<_> = grid.iter().zip(pressures).map(|(&x, p)| [x, p]).collect();
         let tops = rises(&pressures).into_iter().take(MAX_TOPS).map(|top| top.highest);
         let tips = self.tips()?.into_iter().filter(|&x| on.contains(x)).collect();
-        Ok(Features { grid, steep: [on.left, on.right].into_iter().chain(tops).collect(), tips })
+        Ok(Features { grid, limits: self.limits(on), tops: tops.collect(), tips })
+    }
+
+    /// Lists the limits of a contact and of the stick zones in it, from left to right.
+    pub(super) fn limits(&self, on: Interval<T>) -> Vec<T> {
+        let zones = self.stick_zones().flat_map(|zone| [zone.left, zone.right]);
+        let inside = zones.filter(|&x| on.contains(x));
+        [on.left].into_iter().chain(inside).chain([on.right]).collect()
+    }
+
+    /// Lists places in a contact that crowd at its limits and at breakpoints.
+    pub(super) fn grid(&self, contact: usize, on: Interval<T>) -> Vec<T> {
+        places(&**self.solution.integrator, &self.solution.gap, contact, on)
     }
 }
 
@@ -130,8 +151,10 @@ impl<T: Real> Subsurface<'_, T> {
 struct Features<T> {
     /// Grid that crowds at the limits and breakpoints.
     grid: Vec<T>,
-    /// Limits and highest maxima of the pressure.
-    steep: Vec<T>,
+    /// Limits of the contact and of its stick zones.
+    limits: Vec<T>,
+    /// Highest maxima of the pressure.
+    tops: Vec<T>,
     /// Breakpoints where the pressure is infinite.
     tips: Vec<T>,
 }
@@ -160,17 +183,19 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
     }
 
     fn at(&self, place: [T; 2]) -> Result<Found<T>, ContactError<T>> {
-        let (on, solution) = (self.on, self.below.solution);
         let is_below = place[1] > Self::surface();
-        let depth = if is_below { on.half_width() * place[1].exp() } else { T::zero() };
-        let along = place[0];
-        let x = if along.abs().is_one() {
-            // The limits themselves: a stress may fall from there like a square root.
-            if along > T::zero() { on.right } else { on.left }
-        } else {
-            on.centre() + on.half_width() * along
-        };
-        solution.gap.check_watch(solution.cost(), on)?;
+        let depth = if is_below { self.on.half_width() * place[1].exp() } else { T::zero() };
+        self.found(place, self.on.centre() + self.on.half_width() * place[0], depth)
+    }
+
+    /// Returns the stress on the surface at x itself, of which a place keeps fewer digits.
+    fn on_surface(&self, x: T) -> Result<Found<T>, ContactError<T>> {
+        self.found([self.along(x), Self::surface()], x, T::zero())
+    }
+
+    fn found(&self, place: [T; 2], x: T, depth: T) -> Result<Found<T>, ContactError<T>> {
+        let solution = self.below.solution;
+        solution.gap.check_watch(solution.cost(), self.on)?;
         let value = match self.below.at(x, depth) {
             Ok(stress) => (self.value)(stress)?,
             // The shear is bounded, or the strength of the edge is only rounding.
@@ -216,19 +241,20 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
                 .flat_map(|row| [-0.5, 0.0, 0.5].map(|share| [x + T::of(share) * row.exp(), row]));
             self.highest(near)
         };
-        for &x in &features.steep {
+        for &x in features.limits.iter().chain(&features.tops) {
             feet.push(neighbourhood(x)?);
         }
         let mut surface = Vec::with_capacity(features.grid.len());
         for &x in &features.grid {
-            surface.push([x, self.at([self.along(x), Self::surface()])?.1.value]);
+            surface.push([x, self.on_surface(x)?.1.value]);
         }
         for top in rises(&surface).into_iter().take(MAX_TOPS) {
-            feet.push(self.at([self.along(top.highest), Self::surface()])?);
+            feet.push(self.on_surface(top.highest)?);
             feet.push(neighbourhood(top.highest)?);
         }
-        for limit in [-T::one(), T::one()] {
-            feet.push(self.at([limit, Self::surface()])?);
+        // From a limit a stress may fall like a square root.
+        for &limit in &features.limits {
+            feet.push(self.on_surface(limit)?);
         }
         // The stress rises to a corner or a tip along a ridge that narrows with the depth, and
         // bends. Below a tip the ridge becomes too narrow to follow, but its end is known.

@@ -40,7 +40,7 @@ pub fn ask_all(solution: &Solution<f64>) {
         }
     }
     if let Ok(below) = below {
-        let _ = (below.max_shear(), below.max_von_mises(0.3));
+        let _ = (below.max_shear(), below.max_von_mises(0.3), below.max_tension());
     }
 }
 
