@@ -71,6 +71,10 @@ fn largest(StressPeak { x, depth, value }: StressPeak<f64>) -> Largest {
     (x, depth, value)
 }
 
+fn extremum(Extremum { x, value }: Extremum<f64>) -> Pair {
+    (x, value)
+}
+
 /// Returns σ_x, σ_y and τ_xy at points.
 fn stresses(
     (x, depth): (&[f64], &[f64]),
@@ -258,6 +262,10 @@ impl Solution {
             .map(largest)
     }
 
+    fn max_tension(&self, py: Python<'_>, friction: f64) -> PyResult<Pair> {
+        call::library(py, || self.0.subsurface()?.friction(friction)?.max_tension()).map(extremum)
+    }
+
     fn gap(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
         let x = x.as_array().to_vec();
         let at = |x| if self.touches(x) { Ok(0.0) } else { self.0.gap_at(x) };
@@ -300,8 +308,8 @@ impl Solution {
 
     fn certify(&self, py: Python<'_>) -> PyResult<Proof> {
         let proof = call::library(py, || self.0.certify())?;
-        let place = |found: Option<Extremum<f64>>| found.map(|found| (found.x, found.value));
-        Ok((place(proof.pressure), place(proof.gap), proof.spacing, counts(proof.cost)))
+        let [pressure, gap] = [proof.pressure, proof.gap].map(|found| found.map(extremum));
+        Ok((pressure, gap, proof.spacing, counts(proof.cost)))
     }
 
     fn summary(&self, py: Python<'_>) -> PyResult<Row> {
@@ -383,5 +391,20 @@ impl PartialSlip {
             stresses((&x, &depth), |x, depth| subsurface.at(x, depth))
         })?;
         Ok(found.map(|stress| call::array(py, stress)))
+    }
+
+    fn max_shear(&self, py: Python<'_>, of: &str) -> PyResult<Largest> {
+        let of = body(of)?;
+        call::library(py, || self.0.subsurface(of)?.max_shear()).map(largest)
+    }
+
+    fn max_von_mises(&self, py: Python<'_>, of: &str, poisson: f64) -> PyResult<Largest> {
+        let of = body(of)?;
+        call::library(py, || self.0.subsurface(of)?.max_von_mises(poisson)).map(largest)
+    }
+
+    fn max_tension(&self, py: Python<'_>, of: &str) -> PyResult<Pair> {
+        let of = body(of)?;
+        call::library(py, || self.0.subsurface(of)?.max_tension()).map(extremum)
     }
 }

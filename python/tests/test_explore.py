@@ -127,6 +127,62 @@ def test_what_is_infinite(tmp_path: Path) -> None:
         assert (x[-1] > on["right"]) == (right <= 0.0)
 
 
+SLIPS: dict[str, tuple[str, list[float], dict[str, Any]]] = {
+    "hertz": ("hertz", [0.02, 0.01], {"friction": 0.4, "force": 0.003, "tension": 0.002}),
+    "two contacts": ("two contacts", [1.0, 3.0], {"friction": 0.9, "force": -0.7}),
+    "strong friction": ("gear", [200.0], {"friction": 3.0, "force": 500.0}),
+    "tip": ("tip", [0.02], {"friction": 0.3, "force": 0.002}),
+    "corner": ("corner", [0.02], {"friction": 0.3, "force": 0.002}),
+    "punch": ("punch", [0.02], {"friction": 0.3, "force": -0.002}),
+    "no force": ("hertz", [0.02], {"friction": 0.3}),
+}
+
+
+@pytest.mark.parametrize("name", SLIPS)
+def test_the_traction_is_that_of_partial_slip(name: str, tmp_path: Path) -> None:
+    scene, loads, given = SLIPS[name]
+    contact = CONTACTS[scene][0]
+    acting: dict[str, Any] = {"force": 0.0, "tension": 0.0, **given}
+    data = read(lc.explore(contact, loads, tmp_path / "page.html", **given))
+    assert data["acting"] == acting
+    for frame in data["frames"]:
+        slip = contact.partial_slip(load=frame["load"], **acting)
+        assert [tuple(zone) for zone in frame["stick_zones"]] == list(slip.stick_zones)
+        x, pressures, traction = (array(frame[key]) for key in ("x", "pressure", "traction"))
+        finite = np.isfinite(pressures)
+        np.testing.assert_array_equal(traction[finite], slip.traction(x[finite]))
+        assert np.all(np.isnan(traction[~finite]))
+        inside = {limit for zone in slip.stick_zones for limit in zone if slip.normal.pressure(limit - 1e-6) > 0.0}
+        assert name in ("punch", "no force") or inside <= set(x)
+        low, high = frame["pressure_axis"]
+        if frame["peak"]["pressure"] is not None:
+            assert low <= np.min(traction) and np.max(traction) <= high
+        for key, of in (("tension", slip.max_tension), ("shear", slip.max_shear)):
+            try:
+                assert frame[key] == of("lower")._asdict()
+            except lc.errors.SingularError as infinite:
+                assert frame[key]["value"] is None and frame[key]["x"] == infinite.x
+        at, depth, shear = shear_of(frame["field"])
+        exact = slip.stress("lower", at, depth[1:, None]).max_shear()
+        np.testing.assert_allclose(shear[1:], exact, rtol=0.0, atol=0.51 * frame["field"]["unit"])
+        if scene in ("hertz", "two contacts"):
+            surface = slip.stress("lower", at, 0.0).max_shear()
+            np.testing.assert_allclose(shear[0], surface, atol=1e-3 * np.max(surface) + frame["field"]["unit"])
+
+
+def test_slip_all_over_is_marked(tmp_path: Path) -> None:
+    contact, page = CONTACTS["hertz"][0], tmp_path / "page.html"
+    wrong, right = read(lc.explore(contact, [0.005, 0.02], page, friction=0.4, force=0.003))["frames"]
+    assert wrong["error"].startswith("SlipsEverywhereError: ") and "error" not in right
+    assert read(lc.explore(contact, 0.02, page))["acting"] is None
+    with pytest.raises(TypeError, match="give friction"):
+        lc.explore(contact, 0.02, page, force=0.003)
+    with pytest.raises(TypeError, match="give one number"):
+        lc.explore(contact, 0.02, page, friction=0.4, force=[0.001, 0.002])  # type: ignore[arg-type]
+    with pytest.raises(lc.errors.InvalidSlipFrictionError):
+        lc.explore(contact, 0.02, page, friction=math.nan, force=0.003)
+
+
 def test_the_picture_between_the_points_of_the_grid(tmp_path: Path) -> None:
     contact = CONTACTS["hertz"][0]
     # The smaller contact is a tenth as wide as the picture.

@@ -13,7 +13,7 @@ import xml.dom.minidom
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -422,6 +422,62 @@ def test_axes_show_units() -> None:
     for wrong in ("mm", ("mm",)):
         with pytest.raises(TypeError, match="names of the units"):
             lc.solve(FLAT, BODY, kappa=1.0, load=0.01).plot(units=wrong)
+
+
+def test_a_picture_of_partial_slip() -> None:
+    bumps = lc.Curve((-2.5, 2.5), lambda x: (x, x**4 - 2 * x**2, 1.0, 4 * x**3 - 4 * x))
+    corners = lc.Edge.fixed(-1.0), lc.Edge.fixed(1.0)
+    scenes = [
+        (lc.Contact(FLAT, BODY, contact_modulus=1.0), 0.03, 0.1),
+        (lc.Contact(FLAT, bumps, contact_modulus=1.0), -0.2, 0.5),
+        (lc.Contact(FLAT, lc.Wedge((-0.1, 0.1), 9.0), contact_modulus=1.0), 0.05, 0.3),
+        (lc.Contact(FLAT, FLAT, contact_modulus=1.0, edges=corners), 0.05, 0.3),
+    ]
+    for contact, force, load in scenes:
+        slip = contact.partial_slip(friction=0.8, force=force, load=load)
+        figure = slip.plot(units=("mm", "MPa"))
+        _, pressure, shear, bar = figure.axes
+        assert pressure.get_ylabel() == "pressure, traction / MPa"
+        assert bar.get_ylabel() == "largest shear in lower body / MPa" and shear.yaxis_inverted()
+        assert len(pressure.lines) == 3 * len(slip.normal.intervals)
+        bottom, top = pressure.get_ylim()
+        count = len(slip.normal.intervals)
+        for limit, traction in zip(pressure.lines[count::2], pressure.lines[count + 1 :: 2], strict=True):
+            x, drawn = (np.asarray(part, dtype=float) for part in traction.get_data())
+            np.testing.assert_array_equal(drawn, slip.traction(x))
+            most = np.asarray(limit.get_ydata(), dtype=float)
+            assert np.all(np.abs(drawn) <= np.abs(most) * (1 + 1e-9) + 1e-12) and np.all(drawn * force >= -1e-12)
+            assert bottom <= np.min(drawn) and np.max(drawn) <= top
+
+
+def test_stresses_of_partial_slip() -> None:
+    slip = lc.Contact(FLAT, BODY, contact_modulus=1.0).partial_slip(friction=0.4, force=0.03, load=0.1)
+    back = slip.contact.partial_slip(friction=0.4, force=-0.03, load=0.1)
+    peak, a = slip.normal.peak().pressure, slip.normal.a
+    pairs: list[tuple[Literal["lower", "upper"], Literal["lower", "upper"], float]]
+    pairs = [("lower", "upper", -1.0), ("upper", "lower", 1.0)]
+    for body, other, sign in pairs:
+        x, tension = slip.max_tension(body)
+        assert math.isclose(tension, 0.8 * peak * 0.75**0.5, rel_tol=1e-12)  # 2 μ p₀ sqrt(Q/(μF))
+        assert math.isclose(x, sign * a, rel_tol=1e-12)
+        assert slip.stress(body, x, 0.0).sigma_x == tension
+        for one, again in (
+            (slip.max_shear(body), back.max_shear(other)),
+            (slip.max_von_mises(body, 0.3), back.max_von_mises(other, 0.3)),
+        ):
+            assert one == again
+        x, depth, value = slip.max_shear(body)
+        assert math.isclose(slip.stress(body, x, depth).max_shear(), value, rel_tol=1e-7)
+        x, depth, value = slip.max_von_mises(body, 0.3)
+        assert math.isclose(slip.stress(body, x, depth).von_mises(0.3), value, rel_tol=1e-7)
+    for wrong in (lambda: slip.max_shear("middle"), lambda: slip.max_tension("")):  # type: ignore[arg-type]
+        with pytest.raises(ValueError, match="'lower' or 'upper'"):
+            wrong()
+    with pytest.raises(lc.errors.InvalidPoissonRatioError):
+        slip.max_von_mises("lower", 0.6)
+    sliding = slip.normal.max_tension(friction=0.4)
+    assert math.isclose(sliding.value, 0.8 * peak, rel_tol=1e-12) and sliding.x == -slip.normal.b
+    assert slip.normal.max_tension().value == 0.0
 
 
 def test_drawn_bodies_just_touch() -> None:

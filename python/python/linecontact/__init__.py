@@ -49,6 +49,7 @@ from .errors import EvaluationError, InputError, LineContactError, SolveError
 from .exploring import explore
 from .files import Scene
 from .reading import MeasuredProfile, read_profile
+from .slipping import PartialSlip
 from .solution import (
     Approach,
     Attempt,
@@ -58,7 +59,6 @@ from .solution import (
     Extremum,
     Interval,
     LoadRates,
-    PartialSlip,
     Peak,
     Solution,
     Stress,

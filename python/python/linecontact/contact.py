@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict
 from . import _native
 from ._numbers import Range, Unchanging, as_number, as_range, named, one_of
 from .bodies import Body
-from .solution import PartialSlip, Solution, _acting, _ratio
+from .slipping import PartialSlip, acting
+from .solution import Solution, _ratio
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -688,8 +689,8 @@ class Contact(Unchanging):
         0.5
         """
         wanted = _wanted(prescribed)
-        acting = _acting(friction, force, tension)
-        return PartialSlip(self._scene.partial_slip(wanted, acting), self, wanted, acting)
+        along = acting(friction, force, tension)
+        return PartialSlip(self._scene.partial_slip(wanted, along), self, wanted, along)
 
 
 def _wanted(given: Prescribed) -> tuple[str, list[float], References | None]:

@@ -9,10 +9,12 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from ._numbers import FloatArray
     from .contact import Contact
+    from .slipping import PartialSlip
     from .solution import Solution
 
 # Margin shown on each side of the contacts, as a share of their width; and depth shown, in
@@ -63,8 +65,24 @@ def before_loading(
     return lower, upper - touching if np.isfinite(touching) else upper
 
 
-def plot(solution: Solution, units: Sequence[str]) -> Figure:
-    """Draws bodies, pressure and subsurface shear, one below the other over the same x."""
+def _draw_traction(axes: Axes, slip: PartialSlip) -> float:
+    """Draws the traction, and the largest that friction allows; returns the lowest."""
+    x, tractions = slip.sample(257)
+    limit = np.copysign(slip.friction, slip.force) * slip.normal.pressure(x)
+    for number, on in enumerate(slip.normal.intervals):
+        inside = (x >= on.left) & (x <= on.right)
+        names = ("limit of friction", "traction on lower body") if number == 0 else (None, None)
+        axes.plot(x[inside], limit[inside], ":", color="#a63603", label=names[0])
+        axes.plot(x[inside], tractions[inside], color="#a63603", label=names[1])
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
+    return float(np.min(limit, initial=0.0))
+
+
+def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = None) -> Figure:
+    """Draws bodies, pressure and subsurface shear, one below the other over the same x.
+
+    With partial slip it draws the traction, too, and the shear is that in the lower body.
+    """
     if isinstance(units, str) or len(units) not in (2, 3):
         raise TypeError(f'units are {units!r}: give names of the units of lengths and pressures, as ("mm", "MPa")')
     lengths, pressures = (f" / {unit}" if unit else "" for unit in units[:2])
@@ -83,15 +101,18 @@ def plot(solution: Solution, units: Sequence[str]) -> Figure:
     bodies.plot(x, lower, color="#a63603", label="lower body")
     bodies.set_ylabel(f"y before loading{lengths}")
     bodies.legend(loc="best")
-    bodies.set_title(str(solution).splitlines()[0])
+    title = str(solution).splitlines()[0]
+    bodies.set_title(title if slip is None else f"{title}, force {slip.force:.6g}")
 
     places, values = solution.sample(257)
-    for interval in solution.intervals:
+    for number, interval in enumerate(solution.intervals):
         inside = (places >= interval.left) & (places <= interval.right)
         pressure.fill_between(places[inside], values[inside], color="#9ecae1")
-        pressure.plot(places[inside], values[inside], color="#08519c")
-    pressure.set_ylim(bottom=min(0.0, float(np.min(values, initial=0.0))))
-    pressure.set_ylabel(f"pressure{pressures}")
+        name = "pressure" if number == 0 else None
+        pressure.plot(places[inside], values[inside], color="#08519c", label=name)
+    lowest = 0.0 if slip is None else 1.05 * _draw_traction(pressure, slip)
+    pressure.set_ylim(bottom=min(lowest, float(np.min(values, initial=0.0))))
+    pressure.set_ylabel(f"pressure{pressures}" if slip is None else f"pressure, traction{pressures}")
 
     # The depths start below the surface, where the pressure may be infinite. The places are denser
     # below each contact, and the depths start nearer to the surface where contacts are narrow.
@@ -100,9 +121,11 @@ def plot(solution: Solution, units: Sequence[str]) -> Figure:
     columns = max(_COLUMNS // len(solution.intervals), 3)
     below_each = [np.linspace(*interval, columns) for interval in solution.intervals]
     across = np.unique(np.concatenate([np.linspace(x[0], x[-1], _COLUMNS), *below_each]))
-    shear = solution.stress(across[None, :], depth[:, None]).max_shear()
-    drawn = below.contourf(across, depth, shear, levels=12, cmap="cividis")
-    figure.colorbar(drawn, ax=below, label=f"largest shear{pressures}")
+    grid = across[None, :], depth[:, None]
+    stress = solution.stress(*grid) if slip is None else slip.stress("lower", *grid)
+    drawn = below.contourf(across, depth, stress.max_shear(), levels=12, cmap="cividis")
+    shear = "largest shear" if slip is None else "largest shear in lower body"
+    figure.colorbar(drawn, ax=below, label=f"{shear}{pressures}")
     below.invert_yaxis()
     below.set_ylabel(f"depth{lengths}")
     below.set_xlabel(f"x{lengths}")

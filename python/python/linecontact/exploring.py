@@ -21,6 +21,7 @@ from .bodies import Body
 from .contact import Contact, Material, contact_modulus
 from .drawing import BESIDE, before_loading
 from .errors import LineContactError, SingularError
+from .slipping import PartialSlip, acting, slipped_again
 from .solution import Solution
 
 __all__ = ["explore"]
@@ -37,6 +38,9 @@ _STEPS = 65535
 # Ends of the scales where shear or pressure is infinite: the largest shear from this depth on, in
 # half-widths, and this number of mean pressures.
 _SHALLOW, _MEANS = 0.1, 3.0
+# Depth of the row that stands for the surface under a traction, in half-widths: on the surface
+# itself stress may be infinite at a tip.
+_SURFACE = 1e-9
 # Largest strength of a singularity that counts as zero, in mean pressures: rounding.
 _ROUNDING = 1e-12
 # Largest number of characters of the description of a body.
@@ -50,6 +54,9 @@ def explore(
     *,
     title: str = "Line contact",
     units: Sequence[str] = ("", "", ""),
+    friction: float | None = None,
+    force: float = 0.0,
+    tension: float = 0.0,
 ) -> Path:
     """Writes a page with a slider for the load: both bodies, the pressure, and the shear below it.
 
@@ -70,6 +77,10 @@ def explore(
     units : (str, str, str)
         Names of the units of lengths, pressures and loads, to be shown with the numbers, such as
         ``("mm", "MPa", "N/mm")``.
+    friction, force, tension : float, optional
+        Arguments of `Contact.partial_slip`, the same under all loads. With them the page shows the
+        traction, too, the stick zones, the largest tension along the surface of the lower body, and
+        the shear in this body. A load too small for the force is marked as one that fails.
 
     Returns
     -------
@@ -89,7 +100,7 @@ def explore(
     The shapes of the loaded bodies are right, their heights only up to a rigid displacement: it is
     chosen so that the mean deformation at the two ends of the common x axis is zero. Without
     materials each surface is drawn with half of the deformation. The shear is the largest shear
-    stress in the plane, equal in both bodies.
+    stress in the plane, equal in both bodies unless there is a traction.
 
     Examples
     --------
@@ -108,13 +119,16 @@ def explore(
     page = Path(path)
     if not page.parent.is_dir():
         raise FileNotFoundError(f"no folder {page.parent}, for {page.name}")
-    length, pressure, force = units
+    length, pressure, per_length = units
+    along = acting(0.0 if friction is None else friction, force, tension)
+    if friction is None and any(along):
+        raise TypeError("force and tension are carried by friction: give friction, too")
     wanted = np.unique(np.asarray(loads, dtype=np.float64))
     if wanted.size == 0 or not np.all(np.isfinite(wanted)):
         raise ValueError("give at least one load, and finite ones")
     reach = _reach(contact)
-    solved = _solved(contact, wanted.tolist())
-    spans = [_window(one, reach) for one in solved.values() if isinstance(one, Solution)]
+    solved = _solved(contact, wanted.tolist(), None if friction is None else along)
+    spans = [_window(_normal(one), reach) for one in solved.values() if not isinstance(one, LineContactError)]
     window = min((left for left, _ in spans), default=0.0), max((right for _, right in spans), default=0.0)
     frames = {load: _frame(one, window, reach) for load, one in solved.items()}
     errors = [frame for frame in frames.values() if isinstance(frame, LineContactError)]
@@ -123,8 +137,9 @@ def explore(
     x = np.linspace(*window, _BEFORE)
     lower, upper = before_loading(contact, x)
     data = {
-        "units": {"length": length, "pressure": pressure, "load": force},
+        "units": {"length": length, "pressure": pressure, "load": per_length},
         "bodies": {"lower": _words(contact.lower), "upper": _words(contact.upper)},
+        "acting": None if friction is None else dict(zip(("friction", "force", "tension"), along, strict=True)),
         "shared": contact._settings["materials"] is None,
         "window": window,
         "before": {"x": _packed(x), "lower": _packed(lower), "upper": _packed(upper)},
@@ -139,15 +154,23 @@ def explore(
     return page
 
 
-def _solved(contact: Contact, loads: list[float]) -> dict[float, Solution | LineContactError]:
+def _solved(
+    contact: Contact, loads: list[float], along: tuple[float, float, float] | None
+) -> dict[float, Solution | PartialSlip | LineContactError]:
     """Returns each load with its solution, or with its error."""
-    found = dict[float, Solution | LineContactError]()
+    found = dict[float, Solution | PartialSlip | LineContactError]()
     for load in loads:
         try:
-            found[load] = contact.solve(load=load)
+            wanted = "load", [load], None
+            found[load] = contact.solve(load=load) if along is None else slipped_again(contact, wanted, along)
         except LineContactError as error:
             found[load] = error
     return found
+
+
+def _normal(solved: Solution | PartialSlip) -> Solution:
+    """Returns the solution under the load alone."""
+    return solved.normal if isinstance(solved, PartialSlip) else solved
 
 
 def _reach(contact: Contact) -> Range:
@@ -164,14 +187,17 @@ def _window(solution: Solution, reach: Range) -> Range:
 
 
 def _frame(
-    solved: Solution | LineContactError, window: Range, reach: Range
+    solved: Solution | PartialSlip | LineContactError, window: Range, reach: Range
 ) -> dict[str, Any] | LineContactError:
     """Returns the data that the page shows for one load."""
     if isinstance(solved, LineContactError):
         return solved
+    solution, slip = _normal(solved), solved if isinstance(solved, PartialSlip) else None
     try:
-        numbers = {**_numbers(solved), "window": _window(solved, reach)}
-        return {**numbers, **_curves(solved, window), **_field(solved, window)}
+        numbers = {**_numbers(solution), "window": _window(solution, reach)}
+        if slip is not None:
+            numbers |= {"stick_zones": slip.stick_zones, "tension": _tension(slip)}
+        return {**numbers, **_curves(solution, slip, window), **_field(solution, slip, window)}
     except LineContactError as error:
         return error
 
@@ -207,9 +233,21 @@ def _peak(solution: Solution) -> dict[str, Any]:
         return {"x": infinite.x, "pressure": None}
 
 
-def _curves(solution: Solution, window: Range) -> dict[str, Any]:
-    """Returns pressure, gap and lower surface over x, from one end of the window to the other."""
-    inside, beside = np.column_stack(solution.sample(_INSIDE)), _beside(solution, window)
+def _tension(slip: PartialSlip) -> dict[str, Any]:
+    """Returns the largest tension along the lower surface and its x; None if it is infinite."""
+    try:
+        return slip.max_tension("lower")._asdict()
+    except SingularError as infinite:
+        return {"x": infinite.x, "value": None}
+
+
+def _curves(solution: Solution, slip: PartialSlip | None, window: Range) -> dict[str, Any]:
+    """Returns pressure, gap and lower surface over x, from one end of the window to the other.
+
+    With partial slip it also returns the traction.
+    """
+    sampled, _ = (solution if slip is None else slip).sample(_INSIDE)
+    inside, beside = np.column_stack([sampled, solution.pressure(sampled)]), _beside(solution, window)
     left_out = np.reshape(_left_out(solution, inside[:, 0]), (-1, 2))
     table = np.concatenate([inside, left_out, np.column_stack([beside, np.zeros(beside.size)])])
     gaps = np.concatenate([np.zeros(len(inside) + len(left_out)), solution.gap(beside)])
@@ -223,12 +261,21 @@ def _curves(solution: Solution, window: Range) -> dict[str, Any]:
     drawn = pressures[np.isfinite(pressures)]
     peak = _peak(solution)["pressure"]
     top = _MEANS * abs(solution.mean_pressure) if peak is None else peak
+    least, along = float(np.min(drawn, initial=0.0)), {}
+    if slip is not None:
+        # Where the pressure is infinite, the traction may be: it is left out there.
+        traction, finite = np.full(x.size, np.nan), np.isfinite(pressures)
+        traction[finite] = slip.traction(x[finite])
+        along = {"traction": _packed(traction)}
+        least = min(least, float(np.nanmin(traction)))
+        top = top if peak is None else max(top, float(np.nanmax(traction)))
     return {
+        **along,
         "x": _packed(x),
         "pressure": _packed(pressures),
         "gap": _packed(gap),
         "lower": _packed(lower - _share_of_lower(solution.contact) * (given_way - np.mean(ends))),
-        "pressure_axis": [max(float(np.min(drawn, initial=0.0)), -top), top],
+        "pressure_axis": [max(least, -top), top],
     }
 
 
@@ -285,7 +332,7 @@ def _share_of_lower(contact: Contact) -> float:
     return contact_modulus(lower, upper, plane) / alone
 
 
-def _field(solution: Solution, window: Range) -> dict[str, Any]:
+def _field(solution: Solution, slip: PartialSlip | None, window: Range) -> dict[str, Any]:
     """Returns the largest shear and its place, and the shear on a grid.
 
     The grid is finest at the limits of the contacts.
@@ -298,8 +345,12 @@ def _field(solution: Solution, window: Range) -> dict[str, Any]:
     shear = np.zeros((depth.size, x.size))
     # Zero at the surface: without friction the stress along x equals the stress across it.
     shear[1:] = solution.stress(x, depth[1:, None]).max_shear()
+    if slip is not None:
+        rows = np.append(_SURFACE * solution.half_width, depth[1:])
+        shear = slip.stress("lower", x, rows[:, None]).max_shear()
     try:
-        largest: dict[str, Any] = solution.max_shear()._asdict()
+        found = solution.max_shear() if slip is None else slip.max_shear("lower")
+        largest: dict[str, Any] = found._asdict()
         top = largest["value"]
     except SingularError as infinite:
         largest = {"x": infinite.x, "depth": 0.0, "value": None}

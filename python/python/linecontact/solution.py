@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .contact import Contact, References
+    from .slipping import PartialSlip
 
 __all__ = [
     "Approach",
@@ -24,7 +25,6 @@ __all__ = [
     "Extremum",
     "Interval",
     "LoadRates",
-    "PartialSlip",
     "Peak",
     "Solution",
     "Stress",
@@ -305,11 +305,6 @@ def _ratio(given: float) -> float:
         error.ratio = ratio
         raise error
     return ratio
-
-
-def _acting(friction: float, force: float, tension: float) -> tuple[float, float, float]:
-    """Returns friction and loads along the contact in the library's form."""
-    return as_number(friction, "friction"), as_number(force, "force"), as_number(tension, "tension")
 
 
 def _stress(of: Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray, FloatArray]],
@@ -739,6 +734,19 @@ class Solution:
         """Returns the largest von Mises equivalent stress, and its place."""
         return StressPeak(*self._found.max_von_mises(poisson_ratio, friction))
 
+    def max_tension(self, *, friction: float = 0.0) -> Extremum:
+        """Returns the largest tension along the surface, the largest σ_x at depth 0, and its x.
+
+        Examples
+        --------
+        >>> import linecontact as lc
+        >>> solution = lc.solve(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), kappa=1.0, half_width=0.1)
+        >>> tension = solution.max_tension(friction=0.3)
+        >>> round(tension.value / solution.peak().pressure, 12), tension.x == -solution.b  # 2 μ p₀
+        (0.6, True)
+        """
+        return Extremum(*self._found.max_tension(friction))
+
     # Approach, stiffness and partial slip.
 
     def approach(self, references: References) -> Approach:
@@ -751,8 +759,9 @@ class Solution:
 
     def partial_slip(self, *, friction: float, force: float, tension: float = 0.0) -> PartialSlip:
         """Solves the contact again, under a tangential force: see `Contact.partial_slip`."""
-        acting = _acting(friction, force, tension)
-        return _slipped_again(self._contact, self._prescribed, acting)
+        from .slipping import acting, slipped_again
+
+        return slipped_again(self._contact, self._prescribed, acting(friction, force, tension))
 
     # Summary and pictures.
 
@@ -828,107 +837,6 @@ class Solution:
         return plot(self, units)
 
 
-class PartialSlip:
-    """A contact that sticks in part and slips in part, from `Contact.partial_slip`.
-
-    Attributes
-    ----------
-    contact : Contact
-        The scene.
-
-    Examples
-    --------
-    >>> import linecontact as lc
-    >>> contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), contact_modulus=1.0)
-    >>> contact.partial_slip(friction=0.4, force=0.03, load=0.1)
-    <PartialSlip: force 0.03, sticks in [-0.178412, 0.178412]>
-    """
-
-    __slots__ = ("_acting", "_contact", "_found", "_prescribed")
-
-    def __init__(
-        self,
-        found: _native.PartialSlip,
-        contact: Contact,
-        prescribed: Prescribed,
-        acting: tuple[float, float, float],
-    ) -> None:
-        self._found, self._contact = found, contact
-        self._prescribed, self._acting = prescribed, acting
-
-    @property
-    def contact(self) -> Contact:
-        """The scene."""
-        return self._contact
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _slipped_again, (self._contact, self._prescribed, self._acting)
-
-    def __repr__(self) -> str:
-        zones = ", ".join(f"[{on.left:.6g}, {on.right:.6g}]" for on in self.stick_zones)
-        return f"<PartialSlip: force {self.force:.6g}, sticks in {zones}>"
-
-    @property
-    def normal(self) -> Solution:
-        """The contact under its normal load alone."""
-        return Solution(self._found.normal, self._contact, self._prescribed)
-
-    @property
-    def friction(self) -> float:
-        """Coefficient of friction."""
-        return self._acting[0]
-
-    @property
-    def force(self) -> float:
-        """Tangential force on the lower body, in the direction of x: force/length."""
-        return self._acting[1]
-
-    @property
-    def tension(self) -> float:
-        """Tension that stretches the lower body, less the tension in the upper one: a pressure."""
-        return self._acting[2]
-
-    @property
-    def stick_zones(self) -> tuple[Interval, ...]:
-        """Intervals in which the bodies stick, from left to right: lengths.
-
-        In the rest of the contacts they slip.
-        """
-        return tuple(Interval(*on) for on in self._found.stick_zones)
-
-    @overload
-    def traction(self, x: float) -> float: ...
-    @overload
-    def traction(self, x: Numbers) -> FloatArray: ...
-    def traction(self, x: float | Numbers) -> float | FloatArray:
-        """Returns the traction on the lower body along x: a pressure, zero outside the contacts.
-
-        Examples
-        --------
-        >>> import linecontact as lc
-        >>> contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), contact_modulus=1.0)
-        >>> slip = contact.partial_slip(friction=0.4, force=0.03, load=0.1)
-        >>> edge = 0.9 * slip.normal.a  # slips: μP
-        >>> round(slip.traction(edge) / slip.normal.pressure(edge), 12)
-        0.4
-        """
-        found: float | FloatArray = each(self._found.traction, x)
-        return found
-
-    def stress(
-        self, body: Literal["lower", "upper"], x: float | Numbers, depth: float | Numbers
-    ) -> Stress:
-        """Returns the stress below the surface of one body, from pressure and traction."""
-        return _stress(lambda x, depth: self._found.stress(body, x, depth), x, depth)
-
-
 def _solved_again(contact: Contact, prescribed: Prescribed) -> Solution:
     """Restores a pickled solution."""
     return Solution(contact._scene.solve(prescribed), contact, prescribed)
-
-
-def _slipped_again(
-    contact: Contact, prescribed: Prescribed, acting: tuple[float, float, float]
-) -> PartialSlip:
-    found = contact._scene.partial_slip(prescribed, acting)
-    return PartialSlip(found, contact, prescribed, acting)

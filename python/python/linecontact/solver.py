@@ -9,7 +9,8 @@ from . import _native
 from ._numbers import FloatArray, Numbers, as_number, as_numbers, as_range, refuse_unknown
 from .bodies import Body
 from .contact import Contact, Prescribed, References, Settings, _wanted
-from .solution import PartialSlip, Solution, _acting
+from .slipping import PartialSlip, acting
+from .solution import Solution
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -88,9 +89,9 @@ class Solver:
     ) -> PartialSlip:
         """Finds a contact as `Contact.partial_slip` does, but starts from the last contact."""
         wanted = _wanted(prescribed)
-        acting = _acting(friction, force, tension)
-        found = self._solver.partial_slip(contact._scene, wanted, acting)
-        return PartialSlip(found, contact, wanted, acting)
+        along = acting(friction, force, tension)
+        found = self._solver.partial_slip(contact._scene, wanted, along)
+        return PartialSlip(found, contact, wanted, along)
 
 
 class SpringPoints(NamedTuple):
