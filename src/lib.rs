@@ -41,6 +41,7 @@
 //! - [`stress`]: the stress below the surface of either body.
 //! - [`Material`], [`Solution::approach`], [`Solution::stiffness`], [`SpringTable`]: the approach
 //!   of the bodies under load.
+//! - [`FiniteRoller`]: a roller of finite length as slices, each with the load of such a table.
 //! - [`PartialSlip`]: a tangential force that friction carries.
 //! - [`Certificate`]: a proof that a solution is a contact in all of the bodies.
 //! - [`Solution`], [`Pressure`], [`Peak`]: results, with [each contact](ContactRegion), moment,
@@ -91,6 +92,7 @@ pub mod contact;
 mod edge;
 mod ends;
 mod error;
+mod finite_roller;
 pub mod gap;
 mod interval;
 mod material;
@@ -114,6 +116,7 @@ pub use contact::{Contact, Control, EdgePressure};
 pub use edge::Edge;
 pub use ends::{Ends, Side};
 pub use error::{Body, ContactError, EvaluationError, InputError, SolveError};
+pub use finite_roller::{FiniteRoller, RollerSlice, RollerState};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
 pub use material::{Material, PlaneState, Reference, References};

@@ -7,6 +7,7 @@
 //! ISO/TS 16281, two points suffice. If two test solves between two points show an error above the
 //! tolerance, a point is added between them.
 
+use crate::real::same;
 use crate::{
     Contact, ContactError, Control, EvaluationError, InputError, Interval, Real, References,
     Solution, SolveError, Solver,
@@ -98,6 +99,7 @@ fn checked<'de, T: Real + serde::Deserialize<'de>, D: serde::Deserializer<'de>>(
         [approach, load, stiffness, half_contact].into_iter().all(positive)
             && peak.is_none_or(positive)
             && exponents.iter().all(|exponent| exponent.is_finite())
+            && exponents[0] > T::zero()
     };
     let rises = |pair: &[Node<T>]| {
         let [from, to] = [pair[0].point, pair[1].point];
@@ -191,16 +193,48 @@ impl<T: Real> SpringTable<T> {
     /// # Errors
     /// [`EvaluationError::OutsideTable`].
     pub fn at(&self, approach: T) -> Result<SpringPoint<T>, ContactError<T>> {
-        let last = self.points.len() - 1;
-        let range = [self.points[0].point.approach, self.points[last].point.approach];
+        let range = self.range();
         let rounding = T::of(4.0) * T::epsilon() * range[1];
         if !(approach >= range[0] - rounding && approach <= range[1] + rounding) {
             return Err(EvaluationError::OutsideTable { approach, range }.into());
         }
+        Ok(self.nearest(approach).point)
+    }
+
+    /// Returns the state at any positive approach: beyond the ends of the table, load, half-width
+    /// and peak go on as powers of the approach.
+    pub(crate) fn continued(&self, approach: T) -> SpringPoint<T> {
+        let Node { mut point, exponents } = self.nearest(approach);
+        if !same(point.approach, approach) {
+            let ratio = approach / point.approach;
+            point.load *= ratio.powf(exponents[0]);
+            point.stiffness = exponents[0] * point.load / approach;
+            point.half_contact *= ratio.powf(exponents[1]);
+            point.peak = point.peak.map(|peak| peak * ratio.powf(exponents[2]));
+            point.approach = approach;
+        }
+        point
+    }
+
+    /// Returns an approach, that of the last point or more, at which the continued table has at
+    /// least this load.
+    pub(crate) fn approach_for(&self, load: T) -> T {
+        let Node { point, exponents } = self.points[self.points.len() - 1];
+        point.approach * (load / point.load).max(T::one()).powf(T::one() / exponents[0])
+    }
+
+    /// Returns the least and the largest approach.
+    pub(crate) fn range(&self) -> [T; 2] {
+        [0, self.points.len() - 1].map(|i| self.points[i].point.approach)
+    }
+
+    /// Returns the state at the nearest approach within the table.
+    fn nearest(&self, approach: T) -> Node<T> {
+        let range = self.range();
         let approach = approach.max(range[0]).min(range[1]);
         let next = self.points.partition_point(|node| node.point.approach < approach);
-        let next = next.clamp(1, last);
-        Ok(between(&[self.points[next - 1], self.points[next]], approach).point)
+        let next = next.clamp(1, self.points.len() - 1);
+        between(&[self.points[next - 1], self.points[next]], approach)
     }
 }
 

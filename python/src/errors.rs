@@ -152,6 +152,7 @@ table! {
     BothRigid {};
     NoMaterials {};
     InvalidReference { length };
+    InvalidRoller { length, slices, most };
     InvalidFriction { coefficient };
     InvalidSlipFriction { friction };
     InvalidShear { quantity, value };
@@ -185,6 +186,9 @@ table! {
     InJump { wanted, load, below, above };
     ApproachTooLarge { wanted, approach, load };
     ApproachFalls { load, rate };
+    LoadBeyondSlices { load, at, ends };
+    OneSlice { z };
+    RollerNotFound { source };
     SlipsEverywhere { force, limit };
     SticksEverywhere { force, limit };
     ReversedSlip { zone, contact };
@@ -194,6 +198,7 @@ table! {
     Singular { x };
     AboveSurface { x, depth };
     OutsideTable { approach, range };
+    SliceOutsideTable { z, approach, range };
     InvalidPosition { x, inside, interval };
     NoLoadDerivative { why };
     NoUncertainty { why };

@@ -162,9 +162,10 @@ pub enum InputError<T: Real> {
         /// The limits.
         interval: Interval<T>,
     },
-    /// A moment, or the place where a load acts, is not finite.
+    /// A moment, the place where a load acts, or the misalignment of a roller is not finite.
     #[error(
-        "the moment, the place it is about, or the place where the load acts is {value}: it must be finite",
+        "the moment, the place it is about, the place where the load acts, or the misalignment is {value}: it must be \
+         finite",
         value = six(*value)
     )]
     InvalidMoment {
@@ -222,6 +223,19 @@ pub enum InputError<T: Real> {
     InvalidReference {
         /// Length as given.
         length: T,
+    },
+    /// The length of a roller is not a positive finite number, or it has no slices, or too many.
+    #[error(
+        "a roller of length {length} in {slices} slices: the length must be positive and finite, the slices from 1 to \
+         {most}", length = six(*length)
+    )]
+    InvalidRoller {
+        /// Length of the roller as given.
+        length: T,
+        /// Number of slices as given.
+        slices: usize,
+        /// Largest number of slices.
+        most: usize,
     },
     /// The coefficient of friction is not finite.
     #[error("the coefficient of friction is {}: it must be finite", six(*coefficient))]

@@ -377,6 +377,38 @@ pub enum SolveError<T: Real> {
         /// dδ/dF there, negative or zero.
         rate: T,
     },
+    /// The load of a roller acts beyond its slices: no pressure between them has this moment.
+    #[error(
+        "the load {} acts at z = {}, beyond the middles of the outermost slices, from {}: move it inward, that is, \
+         lower the moment", six(*load), apart(*at, ends), span(ends[0], ends[1])
+    )]
+    LoadBeyondSlices {
+        /// Load on the roller, a force.
+        load: T,
+        /// Place along the axis at which it acts, moment over load: a length.
+        at: T,
+        /// Middles of the first and the last slice.
+        ends: [T; 2],
+    },
+    /// A single slice of a roller bears the load: then the moment does not determine the
+    /// misalignment.
+    #[error(
+        "the slice at z = {} alone bears the load, at any misalignment: take more slices, or give the misalignment",
+        six(*z)
+    )]
+    OneSlice {
+        /// Place of this slice along the axis: a length.
+        z: T,
+    },
+    /// The approach or the misalignment of a roller under its load was not found.
+    #[error(
+        "approach and misalignment of the roller not found: {source}; choose units in which its sizes are nearer to 1"
+    )]
+    RollerNotFound {
+        /// Error of the search, in terms of the approach of the slice that is pressed most, or of
+        /// the misalignment.
+        source: SearchError<T>,
+    },
     /// The force exceeds friction: the bodies slip everywhere.
     #[error(
         "the tangential force {} is no less than friction carries, μF = {}: the bodies slip everywhere; lower it, or \

@@ -9,7 +9,7 @@ use crate::Real;
 ///
 /// In the plane it describes a body that is long across, such as a slide shoe with crowned ends.
 /// The relief along the axis of a roller is a contact in space, for which a plane solution is only
-/// a guide.
+/// a guide: take it as the relief of a [`FiniteRoller`](crate::FiniteRoller).
 ///
 /// The slope `2 C X/((l - X)(l + X))` is infinite at ±l. Slope and height are computed from the
 /// distances to the two ends, so that they keep their digits next to them.

@@ -12,4 +12,5 @@ mod approach;
 mod autodiff;
 mod derivatives;
 mod derivatives_several;
+mod finite_roller;
 mod sweep;

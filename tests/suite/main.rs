@@ -41,6 +41,7 @@ mod errors;
 mod estimates;
 #[cfg(feature = "scene")]
 mod files;
+mod finite_roller;
 mod flanks;
 mod flats;
 mod fretting;

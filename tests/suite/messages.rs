@@ -264,6 +264,37 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["2.5 to 3.5, not 1.5"],
         ),
         (
+            ContactError::Input(InputError::InvalidRoller { length: -1.5, slices: 0, most: 99 }),
+            &["length -1.5", "0 slices", "positive", "1 to 99"],
+        ),
+        (
+            ContactError::Evaluation(EvaluationError::SliceOutsideTable {
+                z: 0.5,
+                approach: 4.5,
+                range: [2.5, 3.5],
+            }),
+            &["z = 0.5", "4.5", "2.5 to 3.5", "larger loads"],
+        ),
+        (
+            ContactError::Evaluation(EvaluationError::SliceOutsideTable {
+                z: 0.5,
+                approach: 1.5,
+                range: [2.5, 3.5],
+            }),
+            &["z = 0.5", "1.5", "2.5 to 3.5", "smaller loads", "apart"],
+        ),
+        (
+            ContactError::Solve(SolveError::LoadBeyondSlices { load, at: 5.5, ends: [-4.5, 4.5] }),
+            &["load 32.5", "z = 5.5", "-4.5 to 4.5", "inward"],
+        ),
+        (ContactError::Solve(SolveError::OneSlice { z: 1.5 }), &["z = 1.5", "more slices"]),
+        (
+            ContactError::Solve(SolveError::RollerNotFound {
+                source: SearchError::NotFinite { x: 1.5, value: f64::NAN },
+            }),
+            &["NaN at 1.5", "units"],
+        ),
+        (
             ContactError::Input(InputError::InvalidSlipFriction { friction: -1.5 }),
             &["-1.5", "positive"],
         ),

@@ -370,7 +370,7 @@ class BothLimitsGivenError(InputError):
 
 
 class InvalidMomentError(InputError):
-    """A moment, or the place where a load acts, is not finite.
+    """A moment, the place where a load acts, or the misalignment of a roller is not finite.
 
     Attributes
     ----------
@@ -452,6 +452,24 @@ class InvalidReferenceError(InputError):
     """
 
     length: float
+
+
+class InvalidRollerError(InputError):
+    """The length of a roller is not a positive finite number, or it has no slices, or too many.
+
+    Attributes
+    ----------
+    length : float
+        Length of the roller as given.
+    slices : int
+        Number of slices as given.
+    most : int
+        Largest number of slices.
+    """
+
+    length: float
+    slices: int
+    most: int
 
 
 class InvalidFrictionError(InputError):
@@ -988,6 +1006,50 @@ class ApproachFallsError(SolveError):
     rate: float
 
 
+class LoadBeyondSlicesError(SolveError):
+    """The load of a roller acts beyond its slices: no pressure between them has this moment.
+
+    Attributes
+    ----------
+    load : float
+        Load on the roller, a force.
+    at : float
+        Place along the axis at which it acts, moment over load: a length.
+    ends : tuple[float, float]
+        Middles of the first and the last slice.
+    """
+
+    load: float
+    at: float
+    ends: tuple[float, float]
+
+
+class OneSliceError(SolveError):
+    """A single slice of a roller bears the load: then the moment does not determine the
+    misalignment.
+
+    Attributes
+    ----------
+    z : float
+        Place of this slice along the axis: a length.
+    """
+
+    z: float
+
+
+class RollerNotFoundError(SolveError):
+    """The approach or the misalignment of a roller under its load was not found.
+
+    Attributes
+    ----------
+    source : SearchError
+        Error of the search, in terms of the approach of the slice that is pressed most, or of the
+        misalignment.
+    """
+
+    source: SearchError
+
+
 class SlipsEverywhereError(SolveError):
     """The force exceeds friction: the bodies slip everywhere.
 
@@ -1078,6 +1140,24 @@ class OutsideTableError(EvaluationError):
         Least and largest approach in the table.
     """
 
+    approach: float
+    range: tuple[float, float]
+
+
+class SliceOutsideTableError(EvaluationError):
+    """The table of a spring does not cover the slice of a roller that is pressed most.
+
+    Attributes
+    ----------
+    z : float
+        Place of the slice along the axis, from the middle of the roller: a length.
+    approach : float
+        Approach of this slice, the largest of all.
+    range : tuple[float, float]
+        Least and largest approach in the table.
+    """
+
+    z: float
     approach: float
     range: tuple[float, float]
 
