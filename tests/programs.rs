@@ -15,6 +15,8 @@ mod cam_follower;
 mod compare_searches;
 #[path = "../examples/custom_profile.rs"]
 mod custom_profile;
+#[path = "../examples/finite_roller.rs"]
+mod finite_roller;
 #[path = "../fuzz/src/main.rs"]
 mod fuzz;
 #[path = "../examples/gear_mesh.rs"]
@@ -59,7 +61,7 @@ macro_rules! program {
 }
 
 /// Programs, the longest first.
-const PROGRAMS: [Program; 18] = [
+const PROGRAMS: [Program; 19] = [
     program!(fuzz "0" "2000"),
     program!(measured_profile),
     program!(speed_vs_error "--check"),
@@ -70,6 +72,7 @@ const PROGRAMS: [Program; 18] = [
     program!(cam_follower),
     program!(compare_searches),
     program!(custom_profile),
+    program!(finite_roller),
     program!(gear_mesh),
     program!(paper),
     program!(pieces),
