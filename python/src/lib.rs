@@ -6,6 +6,7 @@ mod control;
 mod curve;
 mod errors;
 mod files;
+mod finite_roller;
 mod gradient;
 mod profile;
 mod quantity;
@@ -21,6 +22,8 @@ mod _native {
     use super::errors::variants;
     #[pymodule_export]
     use super::files::scene_text;
+    #[pymodule_export]
+    use super::finite_roller::FiniteRoller;
     #[pymodule_export]
     use super::gradient::{gradient, parameters};
     #[pymodule_export]

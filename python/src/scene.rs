@@ -314,7 +314,7 @@ impl Solver {
 
 /// Load as a function of approach.
 #[pyclass(frozen, module = "linecontact._native")]
-pub struct SpringTable(linecontact::SpringTable<f64>);
+pub struct SpringTable(pub linecontact::SpringTable<f64>);
 
 type Columns = (Array, Array, Array, Array, Array);
 

@@ -67,6 +67,10 @@ def table() -> lc.SpringTable:
     return lc.SpringTable(material(), TO, (1.0, 10.0), 1e-3)
 
 
+def roller(slices: int = 20, relief: lc.Body | None = None) -> lc.FiniteRoller:
+    return lc.FiniteRoller(table(), 2.0, slices, relief)
+
+
 def two_jumps() -> lc.Piecewise:
     return lc.Piecewise([lc.Line(0.0, (-1.0, 0.0)), lc.Line(1.0, (0.5, 1.0))])
 
@@ -419,6 +423,15 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (lambda: solved(quadrature=lc.Midpoint()).load_rates(), "NoLoadDerivativeError", {}),
     (lambda: HILLS.solve(load=0.1).uncertainty(), "NoUncertaintyError", {}),
     (lambda: table().at(1e9), "OutsideTableError", {"approach": 1e9}),
+    (lambda: roller(slices=-3), "InvalidRollerError", {"slices": 0, "length": 2.0}),
+    (lambda: roller().at(1e9), "SliceOutsideTableError", {"approach": 1e9, "z": -0.95}),
+    (lambda: roller().under_moment(5.0, 5.0), "LoadBeyondSlicesError", {"at": 1.0, "load": 5.0}),
+    (lambda: roller(1).under_moment(5.0, 0.0), "OneSliceError", {"z": 0.0}),
+    (
+        lambda: roller(relief=lc.Line(1e308, (-1.0, 1.0))).under_moment(5.0, 0.0),
+        "RollerNotFoundError",
+        {"source": "SearchBracketError"},
+    ),
     (
         lambda: solved().partial_slip(friction=0.0, force=0.01),
         "InvalidSlipFrictionError",
@@ -495,7 +508,6 @@ NOT_PROVOKED = {
     "IntegralError": "no scene is known",
     "LengthMismatchError": "arrays of results are made here",
     "ProfilePiecesError": "of a trait for bodies of several pieces",
-    "SearchBracketError": "of a search of one's own",
     "SearchLeftBracketError": "of a search of one's own",
     "SearchNoSignChangeError": "of a search of one's own",
     "SearchNotConvergedError": "of a search of one's own",

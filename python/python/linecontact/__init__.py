@@ -48,6 +48,7 @@ from .differentiating import gradient, parameters
 from .errors import EvaluationError, InputError, LineContactError, SolveError
 from .exploring import explore
 from .files import Scene
+from .finite_roller import FiniteRoller, RollerState
 from .reading import MeasuredProfile, read_profile
 from .slipping import PartialSlip
 from .solution import (
@@ -85,6 +86,7 @@ __all__ = [
     "Ellipse",
     "EvaluationError",
     "Extremum",
+    "FiniteRoller",
     "Flat",
     "InputError",
     "Interval",
@@ -103,6 +105,7 @@ __all__ = [
     "Placed",
     "Reference",
     "References",
+    "RollerState",
     "RoundedPunch",
     "Scene",
     "Search",

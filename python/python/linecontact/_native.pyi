@@ -5,6 +5,7 @@ import numpy as np
 import numpy.typing as npt
 
 __all__ = [
+    "FiniteRoller",
     "LoadRates",
     "PartialSlip",
     "Profile",
@@ -31,6 +32,7 @@ _Shear = tuple[float, float, float]
 _Counts = tuple[int, int, int, int, int]
 _Convexity = Literal["unknown", "straight", "convex", "concave"]
 _Columns = tuple[_Array, _Array, _Array, _Array, _Array]
+_RollerRow = tuple[list[float], list[list[float]], float, list[_Array]]
 
 def variants() -> list[tuple[str, list[str]]]: ...
 def contact_modulus(lower: _Elastic, upper: _Elastic, state: str) -> float: ...
@@ -131,6 +133,15 @@ class SpringTable:
     def stiffness_error(self) -> float: ...
     def points(self) -> _Columns: ...
     def at(self, approach: _Array) -> _Columns: ...
+
+@final
+class FiniteRoller:
+    def __new__(
+        cls, table: SpringTable, length: float, slices: int, relief: Profile
+    ) -> FiniteRoller: ...
+    def at(self, approach: float, misalignment: float) -> _RollerRow: ...
+    def under_load(self, load: float, misalignment: float) -> _RollerRow: ...
+    def under_moment(self, load: float, moment: float) -> _RollerRow: ...
 
 @final
 class Solution:

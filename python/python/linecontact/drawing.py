@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from ._numbers import FloatArray
     from .contact import Contact
+    from .finite_roller import RollerState
     from .slipping import PartialSlip
     from .solution import Solution
 
@@ -78,6 +79,37 @@ def _draw_traction(axes: Axes, slip: PartialSlip) -> float:
     return float(np.min(limit, initial=0.0))
 
 
+def _figure(height: float) -> Figure:
+    """Makes a figure of this height, in inches."""
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as missing:
+        raise ImportError("plot() needs matplotlib: pip install matplotlib") from missing
+    return Figure(figsize=(6.4, height), layout="constrained")
+
+
+def plot_roller(state: RollerState, units: Sequence[str]) -> Figure:
+    """Draws load per unit length and largest pressure along the axis, one below the other."""
+    if isinstance(units, str) or len(units) != 3:
+        says = 'give names of the units of lengths, pressures and loads, as ("mm", "MPa", "N/mm")'
+        raise TypeError(f"units are {units!r}: {says}")
+    names = ("z", "largest pressure", "load per unit length")
+    along, pressure, load = (f"{name} / {unit}" if unit else name for name, unit in zip(names, units, strict=True))
+    figure = _figure(5.6)
+    loads, pressures = figure.subplots(2, 1, sharex=True)
+    # The slices have the same width.
+    width = state.load / float(np.sum(state.loads))
+    ends = np.append(state.z - 0.5 * width, state.z[-1] + 0.5 * width)
+    for axes, label, values in ((loads, load, state.loads), (pressures, pressure, state.pressures)):
+        axes.stairs(values, ends, fill=True, color="#9ecae1")
+        axes.stairs(values, ends, color="#08519c")
+        axes.set_ylim(bottom=0.0)
+        axes.set_ylabel(label)
+    loads.set_title(f"load {state.load:.6g}, misalignment {state.misalignment:.6g}")
+    pressures.set_xlabel(along)
+    return figure
+
+
 def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = None) -> Figure:
     """Draws bodies, pressure and subsurface shear, one below the other over the same x.
 
@@ -86,14 +118,10 @@ def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = No
     if isinstance(units, str) or len(units) not in (2, 3):
         raise TypeError(f'units are {units!r}: give names of the units of lengths and pressures, as ("mm", "MPa")')
     lengths, pressures = (f" / {unit}" if unit else "" for unit in units[:2])
-    try:
-        from matplotlib.figure import Figure
-    except ImportError as missing:
-        raise ImportError("plot() needs matplotlib: pip install matplotlib") from missing
     on, contact = solution.hull, solution.contact
     beside = 2 * BESIDE * on.half_width
     x = np.linspace(on.left - beside, on.right + beside, 401)
-    figure = Figure(figsize=(6.4, 8.0), layout="constrained")
+    figure = _figure(8.0)
     bodies, pressure, below = figure.subplots(3, 1, sharex=True)
 
     lower, upper = before_loading(contact, x, solution.tilt)
