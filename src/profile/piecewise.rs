@@ -37,17 +37,13 @@ use thiserror::Error;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Piecewise<T, P> {
     parts: Vec<P>,
     tolerance: T,
-    #[cfg_attr(feature = "serde", serde(skip))]
     /// Parameters and points at the left and right end of each part.
     ends: Vec<([T; 2], [CurvePoint<T>; 2])>,
-    #[cfg_attr(feature = "serde", serde(skip))]
     /// Smooth pieces: the part, and the piece of that part where it has several.
     smooth: Vec<(usize, usize)>,
-    #[cfg_attr(feature = "serde", serde(skip))]
     convexity: Convexity,
 }
 

@@ -28,13 +28,11 @@ const FACTORS: &str = "the product of all factors of a placement";
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Placement<T> {
     /// Matrix `[[a, b], [c, d]]`: `x ↦ a x + b y`, `y ↦ c x + d y`.
     matrix: [[T; 2]; 2],
     shift: [T; 2],
     /// First step that cannot be done, and its value.
-    #[cfg_attr(feature = "serde", serde(skip))]
     fault: Option<(&'static str, T)>,
 }
 
@@ -46,26 +44,6 @@ impl<T: Real> Default for Placement<T> {
 }
 
 impl<T: Real> Placement<T> {
-    /// Builds a placement from a shift and a matrix that turns, mirrors and scales without
-    /// distortion.
-    #[cfg(feature = "serde")]
-    pub(super) fn read(matrix: [[T; 2]; 2], shift: [T; 2]) -> Result<Self, ProfileError<T>> {
-        let [[a, b], [c, d]] = matrix;
-        let [size, other] = [a.hypot(b), c.hypot(d)];
-        finite(FACTORS, size, size > T::zero(), "finite and not zero")?;
-        let allowed = T::epsilon().sqrt();
-        // In shares of the size, whose products neither overflow nor vanish.
-        let square = (a / size) * (c / size) + (b / size) * (d / size);
-        let differ = (other - size) / size;
-        let angle = "the angle between the rows of a placement, by its cosine,";
-        let difference = "the difference of the two factors of a placement, as a share,";
-        for (name, value) in [(angle, square), (difference, differ)] {
-            finite(name, value, value.abs() <= allowed, "zero")?;
-        }
-        shift.into_iter().try_for_each(|by| finite(SHIFT, by, true, "finite"))?;
-        Ok(Self { matrix, shift, fault: None })
-    }
-
     fn asked(mut self, what: &'static str, value: T, possible: bool) -> Self {
         if !(possible && value.is_finite()) {
             self.fault = self.fault.or(Some((what, value)));
@@ -158,7 +136,6 @@ impl<T: Real> Placement<T> {
 /// # Ok::<(), linecontact::ProfileError<f64>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Placed<T, P> {
     curve: P,
     placement: Placement<T>,

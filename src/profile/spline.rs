@@ -62,7 +62,7 @@ pub struct Fit<T> {
     /// neighbours on one side only: there it detects only errors several times as large. A corner
     /// between two points, or an end that is nearly upright, looks like such an error. In a file 0
     /// stands for `None`.
-    #[cfg_attr(feature = "serde", serde(with = "stored::or_zero"))]
+    #[cfg_attr(feature = "serde", serde(with = "stored"))]
     pub outliers: Option<T>,
 }
 
@@ -96,19 +96,16 @@ impl<T: Real> Default for Fit<T> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Spline<T> {
     cubics: Vec<Cubic<T>>,
     noise: T,
-    /// Uncertainty of a smoothed spline; it is not stored.
-    #[cfg_attr(feature = "serde", serde(skip))]
+    /// Uncertainty of a smoothed spline.
     smooth: Option<Arc<Smooth<T>>>,
 }
 
 /// Part of the spline between two knots.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Cubic<T> {
+struct Cubic<T> {
     x: [T; 2],
     /// Coefficients of `Y` by the distance from the left knot, the constant first.
     coefficients: [T; 4],
@@ -220,7 +217,7 @@ impl<T: Real> Spline<T> {
         let spline = Self { cubics, noise: T::zero(), smooth: None };
         // Coefficients that have overflowed or vanished do not lead to the next knot.
         match spline.first_gap(knots) {
-            Some((i, _)) => {
+            Some(i) => {
                 let [before, x] = spline.cubics[i].x;
                 Err(SplineError::Overflow { row: i + 2, x, before })
             }
@@ -228,16 +225,15 @@ impl<T: Real> Spline<T> {
         }
     }
 
-    /// Finds the first cubic that does not end with the height and the slope of the next knot, and
-    /// tells whether the numbers are finite there.
-    fn first_gap(&self, knots: &[[T; 2]]) -> Option<(usize, bool)> {
+    /// Finds the first cubic that does not end with the height and the slope of the next knot.
+    fn first_gap(&self, knots: &[[T; 2]]) -> Option<usize> {
         let size = |i: usize| knots.iter().fold(T::zero(), |size, knot| size.max(knot[i].abs()));
         let allowed = [0, 1].map(|i| T::epsilon().sqrt() * size(i));
-        self.cubics.iter().zip(&knots[1..]).enumerate().find_map(|(i, (cubic, to))| {
+        self.cubics.iter().zip(&knots[1..]).position(|(cubic, to)| {
             let CurvePoint { y, dy, .. } = cubic.at(cubic.x[1]);
             let is_finite = allowed[0].is_finite() && allowed[1].is_finite() && dy.is_finite();
             let meets = (y - to[0]).abs() <= allowed[0] && (dy - to[1]).abs() <= allowed[1];
-            (!(meets && is_finite)).then_some((i, is_finite))
+            !(meets && is_finite)
         })
     }
 

@@ -181,10 +181,23 @@ fn a_bad_file_is_refused_with_line_and_field() {
 fn a_bad_json_file_is_refused_with_line_and_field() {
     let good = "{\n\"lower\": {\"shape\": \"flat\"},\n\"upper\": {\"shape\": {\n\"wedge\": {\"slopes\": [-0.1, 0.1], \"reach\": 1}}}\n}";
     assert!(Scene::<f64>::from_json(good).is_ok());
+    let wedge = "\"wedge\": {\"slopes\": [-0.1, 0.1], \"reach\": 1}";
+    let part = |from: f64, to: f64| {
+        format!(r#"{{"shape": {{"line": {{"slope": 0.1, "domain": [{from}, {to}]}}}}}}"#)
+    };
+    let parts = |gap: f64, tolerance: &str| {
+        let both = [part(-1.0, 0.0), part(gap, 1.0)].join(", ");
+        format!(r#""piecewise": {{"parts": [{both}], "tolerance": {tolerance}}}"#)
+    };
+    assert!(Scene::<f64>::from_json(&good.replace(wedge, &parts(0.0, "1e-12"))).is_ok());
     let refused = [
         ("\"flat\"", "flat", 2, "lower.shape", "expected"),
         ("0.1]", "null]", 4, "upper.shape.wedge.slopes[1]", "invalid type: null"),
         ("\"reach\": 1", "\"reach\": -1", 5, "upper", "k cannot run from"),
+        (wedge, r#""piecewise": {"parts": []}"#, 5, "upper", "at least one piece"),
+        (wedge, &parts(0.5, "1e-12"), 5, "upper", "gap of 0.5 between pieces 0 and 1"),
+        (wedge, &parts(0.0, "-1"), 5, "upper", "tolerance -1 is out of range"),
+        (wedge, r#""spline": {"points": [[0, 0], [1, 1], [0.5, 2], [2, 3]]}"#, 5, "upper", "row 3"),
         (": 1}}}\n}", ": 1}}}\n}\n]", 6, "", "trailing characters"),
         ("\n}", "", 4, "", "EOF"),
     ];
