@@ -43,8 +43,8 @@ NUMBERS = {
 
 # Headings of a table, by number; the last ones are left out where they do not fit.
 _TABLE = {
-    "load": "load", "left": "from", "right": "to", "peak_pressure": "peak", "approach": "approach",
-    "von_mises": "v. Mises", "safety_von_mises": "S Mises", "safety_tresca": "S Tresca", "max_shear": "shear",
+    "load": "load", "left": "from", "right": "to", "peak_pressure": "peak", "safety_von_mises": "S Mises",
+    "safety_tresca": "S Tresca", "approach": "approach", "von_mises": "v. Mises", "max_shear": "shear",
     "max_shear_depth": "at depth", "mean_pressure": "mean", "stiffness": "stiffness",
 }  # fmt: skip
 
@@ -169,7 +169,7 @@ def sheet(scene: Scene, row: Row, yield_stress: float | None) -> str:
             note += "" if math.isnan(depth) else f", depth {depth:.4g}"
             text = f"{numbers[name]:.6g}" if kind else f"{numbers[name]:.3g}"
             whole, point, digits = text.partition(".")
-            lines.append(_line(label, f"{whole:>8}{point + digits:<8}{units[kind]:<8}{note}"))
+            lines.append(_line(label, f"{whole:>8}{point + digits:<11}{units[kind]:<8}{note}"))
     return "\n".join([*lines[0 if scene.title else 2 :], "", *_notes(row, units)])
 
 
