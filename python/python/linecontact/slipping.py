@@ -14,7 +14,7 @@ from .solution import Extremum, Interval, Prescribed, Solution, Stress, StressPe
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from .contact import Contact
+    from .contact import Contact, References
 
 __all__ = ["PartialSlip"]
 
