@@ -2,10 +2,10 @@
 //! for.
 //!
 //! A [`Scene`] is data only, in TOML or in JSON. Python reads and writes the same files
-//! (`linecontact.Scene.from_file`), and `docs/scene.schema.json` describes them for editors. Numbers
-//! are written with all their digits, so that a scene solves to the same bits wherever it is read.
-//! Curves given as functions, and your own profiles, cannot be written: [`Shape`] has the bodies
-//! that a file can hold.
+//! (`linecontact.Scene.from_file`), and `docs/scene.schema.json` describes them for editors.
+//! Numbers are written with all their digits, so that a scene solves to the same bits wherever it
+//! is read. Curves given as functions, and your own profiles, cannot be written: [`Shape`] has the
+//! bodies that a file can hold.
 //!
 //! ```
 //! use linecontact::scene::Scene;

@@ -82,9 +82,12 @@ fn load_and_moment_have_the_derivatives_of_the_stiffness() {
     let loads = [0.1, 2000.0].map(Dual64::from_re);
     let table = SpringTable::new(&contact, &to, loads, Dual64::from_re(1e-4)).unwrap();
     let roller = FiniteRoller::new(table, length, 30, &relief(0.00035)).unwrap();
-    for (load, moment) in
-        [([6e3, 1.0], [5e3, 0.0]), ([6e3, 0.0], [5e3, 1.0]), ([800.0, 0.3], [4e3, 2.0])]
-    {
+    for (load, moment) in [
+        ([6e3, 0.0], [0.0, 1.0]),
+        ([6e3, 1.0], [5e3, 0.0]),
+        ([6e3, 0.0], [5e3, 1.0]),
+        ([800.0, 0.3], [4e3, 2.0]),
+    ] {
         let [load, moment] = [load, moment].map(|[value, rate]| Dual64::new(value, rate));
         let state = roller.under_moment(load, moment).unwrap();
         let [first, second] = state.stiffness;
