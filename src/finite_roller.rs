@@ -237,12 +237,7 @@ impl<T: Real> FiniteRoller<T> {
             Ok((state.load - load, state.stiffness[0][0]))
         };
         let root = try_find_with_slope(&Newton::DEFAULT, value, &bracket).map_err(not_found)?;
-        let (mut largest, mut state) = (root.x, pressed(root.x));
-        for _ in 0..T::DERIVATIVE_ORDER {
-            largest += (load - state.load) / state.stiffness[0][0];
-            state = pressed(largest);
-        }
-        Ok(state)
+        Ok(pressed(root.x))
     }
 
     /// Returns an approach at which one slice alone bears more than the load, beyond rounding.

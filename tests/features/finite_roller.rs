@@ -81,7 +81,7 @@ fn load_and_moment_have_the_derivatives_of_the_stiffness() {
     let to = References { x: Dual64::from_re(0.0), lower, upper };
     let loads = [0.1, 2000.0].map(Dual64::from_re);
     let table = SpringTable::new(&contact, &to, loads, Dual64::from_re(1e-4)).unwrap();
-    let roller = FiniteRoller::new(table, length, 30, &relief(0.00035)).unwrap();
+    let roller = FiniteRoller::new(table.clone(), length, 30, &relief(0.00035)).unwrap();
     for (load, moment) in [
         ([6e3, 0.0], [0.0, 1.0]),
         ([6e3, 1.0], [5e3, 0.0]),
@@ -101,5 +101,8 @@ fn load_and_moment_have_the_derivatives_of_the_stiffness() {
         let [direct, coupling] = state.stiffness[0].map(|stiffness| stiffness.re);
         let rate = direct * state.approach.eps + coupling * 1e-3;
         assert!((rate - load.eps).abs() < 1e-9 * direct, "{rate}");
-    }
+    }    // The search starts at the approach of a single slice.
+    let one = FiniteRoller::new(table, length, 1, &Flat).unwrap();
+    let state = one.under_load(Dual64::new(6e3, 1.0), Dual64::from_re(0.0)).unwrap();
+    assert!((state.stiffness[0][0].re * state.approach.eps - 1.0).abs() < 1e-9, "{state:?}");
 }
