@@ -101,7 +101,8 @@ fn load_and_moment_have_the_derivatives_of_the_stiffness() {
         let [direct, coupling] = state.stiffness[0].map(|stiffness| stiffness.re);
         let rate = direct * state.approach.eps + coupling * 1e-3;
         assert!((rate - load.eps).abs() < 1e-9 * direct, "{rate}");
-    }    // The search starts at the approach of a single slice.
+    }
+    // The search starts at the approach of a single slice.
     let one = FiniteRoller::new(table, length, 1, &Flat).unwrap();
     let state = one.under_load(Dual64::new(6e3, 1.0), Dual64::from_re(0.0)).unwrap();
     assert!((state.stiffness[0][0].re * state.approach.eps - 1.0).abs() < 1e-9, "{state:?}");
