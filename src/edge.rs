@@ -21,7 +21,8 @@ use crate::Real;
 pub enum Edge<T> {
     /// Smooth body: the limit is where the pressure ends at zero.
     Free,
-    /// Sharp corner at this `x`, where the limit stays. The pressure may be infinite there. If it
+    /// Sharp corner at this `x`, where the body ends and the limit stays: nothing beyond it is
+    /// checked. The pressure may be infinite there. If it
     /// would be negative, or the contact ends before the corner, the body lifts off
     /// ([`SolveError::LiftsOff`](crate::SolveError::LiftsOff)). Between two such corners the
     /// load must be positive, and the contacts may be several, unless [a single

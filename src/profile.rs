@@ -56,7 +56,7 @@ mod placed;
 mod rounded_punch;
 mod spline;
 #[cfg(feature = "serde")]
-mod stored;
+pub(crate) mod stored;
 
 pub use convexity::Convexity;
 pub use crowning::Crowning;

@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from unittest.mock import Mock
@@ -99,7 +100,7 @@ def test_the_sheet_is_that_of_hertz(run: Run) -> None:
     assert math.isclose(found["safety by von Mises"], 600 / (PEAK * mises.max()), rel_tol=5e-3)
     assert math.isclose(found["safety by Tresca"], 600 / (2 * PEAK * shear.max()), rel_tol=5e-3)
     assert f"depth {t[shear.argmax()] * LENGTH:.4g}" in text and f"depth {t[mises.argmax()] * LENGTH:.4g}" in text
-    assert len(re.findall(r"at x = 0(?:,|$)", text, re.MULTILINE)) == 4
+    assert len(re.findall(r"at x = 0 mm(?:,|$)", text, re.MULTILINE)) == 4
     assert "E = 210000 MPa, Poisson's ratio 0.3" in text and "against yield at 600 MPa" in text
 
 
@@ -153,7 +154,7 @@ def test_approach_and_stiffness_need_references(run: Run) -> None:
     loads = [HERTZ.contact.solve(approach=0.01 + off, references=TO).load for off in (-1e-6, 1e-6)]
     assert math.isclose(found["stiffness"], (loads[1] - loads[0]) / 2e-6, rel_tol=1e-5)
     assert not {"approach of the bodies", "stiffness"} & numbers(run(roller({"load": 1.0}))[1]).keys()
-    again = numbers(run(roller({"load": solution.load})._replace(references=TO))[1])
+    again = numbers(run(replace(roller({"load": solution.load}), references=TO))[1])
     assert math.isclose(again["approach of the bodies"], 0.01, rel_tol=1e-5)
     assert again["stiffness"] == found["stiffness"]
 
@@ -243,7 +244,7 @@ def test_a_table_of_other_controls_has_the_loads(run: Run) -> None:
 
 def test_a_table_has_the_numbers_of_hertz(run: Run, tmp_path: Path) -> None:
     file = tmp_path / "out.csv"
-    assert run(roller()._replace(units={"length": "µm"}), "--load", "1", "--csv", file)[0] == 0
+    assert run(replace(roller(), units={"length": "µm"}), "--load", "1", "--csv", file)[0] == 0
     assert "half_width [µm]" in file.read_text(encoding="utf-8")
     code, text, _ = run(roller(), "--load", "100:500:5", "--yield-stress", "600", "--csv", file)
     assert code == 0
@@ -357,6 +358,8 @@ def test_exit_codes(run: Run, tmp_path: Path) -> None:
     assert not (tmp_path / "page.html").exists()
     code, _, errors = run(scene, "--load", "-1")
     assert code == 2 and "load = -1: the load is -1" in errors
+    negative = lc.Contact(lc.Flat(), ROLLER, contact_modulus=-1.0)
+    assert run(Scene(negative, ({"load": 1.0},)))[0] == 3
     code, text, errors = run(None, tmp_path / "none.toml")
     assert code == 3 and errors == f"linecontact: {tmp_path / 'none.toml'}: No such file or directory\n"
     bad = tmp_path / "bad.toml"
@@ -374,6 +377,11 @@ def test_exit_codes(run: Run, tmp_path: Path) -> None:
         assert re.fullmatch(missing, errors)
 
 
+def test_no_noise_is_told_where_the_pressure_is_infinite(run: Run) -> None:
+    fixed = (lc.Edge.fixed(-0.1), lc.Edge.fixed(0.1))
+    assert "noise" not in run(roller({"load": 500.0}, edges=fixed))[1]
+
+
 def test_a_field_that_is_not_known_is_told(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     def fails(*_: object) -> None:
         raise lc.errors.SingularError("the pressure is\ninfinite")
@@ -387,6 +395,9 @@ USAGE: list[tuple[list[str], list[dict[str, Any]], str]] = [
     (["--load", "many"], [], "'many': give a load, as 500, or first:last:count"),
     (["--load", "1:2"], [], "give a load"),
     (["--load", "1:2:0"], [], "give a load"),
+    (["--load", "1:2:1"], [], "give a load"),
+    (["--load", "1", "--csv", "out", "--npz", "out"], [], "two of the files are the same one"),
+    (["--load", "1", "--csv", "scene.toml"], [], "two of the files are the same one"),
     (["--load", "1:2:2.5"], [], "give a load"),
     (["--load", "nan"], [], "give a load"),
     (["--load", "1:inf:3"], [], "give a load"),

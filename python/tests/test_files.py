@@ -191,14 +191,27 @@ def test_what_a_file_cannot_hold_is_refused(tmp_path: Path) -> None:
             contact.to_file(tmp_path / "scene.toml")
         assert caught.value.field == field
     for scene in [
-        lc.Scene(lc.Contact(flat, body), ({"lode": 1.0},)),  # type: ignore[typeddict-unknown-key]
         lc.Scene(lc.Contact(flat, body), ({"load": math.nan},)),
-        lc.Scene(lc.Contact(flat, body), units={"width": "mm"}),
-        lc.Scene(lc.Contact(flat, body), ({"load": object()},)),  # type: ignore[typeddict-item]
+        lc.Scene(lc.Contact(flat, body), references=lc.References(math.inf, TO.lower, TO.upper)),
     ]:
         with pytest.raises(errors.SceneFileError):
             scene.to_file(tmp_path / "scene.toml")
     assert not (tmp_path / "scene.toml").exists()
+
+
+def test_a_scene_that_cannot_be_solved_is_refused() -> None:
+    contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)))
+    given: list[dict[str, Any]] = [
+        {"contact": "x"},
+        {"controls": [{"lode": 1.0}]},
+        {"controls": [{"load": object()}]},
+        {"units": {"width": "mm"}},
+        {"title": Path("x")},
+    ]
+    for wrong in given:
+        with pytest.raises(TypeError):
+            lc.Scene(**{"contact": contact, **wrong})
+    assert lc.Scene(contact, [{"load": 1.0}]) == lc.Scene(contact, ({"load": 1.0},))
 
 
 def test_the_schema_refuses_what_the_library_refuses(tmp_path: Path) -> None:

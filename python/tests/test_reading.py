@@ -81,6 +81,10 @@ def test_units_and_columns(tmp_path: Path) -> None:
     np.testing.assert_allclose(inches, [[0, 76.2], [25.4, 101.6]])
     wide = written(tmp_path, "wide.csv", "i;x [mm];y;z [um]\n1;0;9;3\n2;1;9;4\n")
     np.testing.assert_allclose(lc.read_profile(wide, columns=(2, 4)).points, [[0, 3e-3], [1, 4e-3]])
+    large = written(tmp_path, "large.csv", "X [MM];Z [UM]\n−1;0\n1;3\n")
+    np.testing.assert_allclose(lc.read_profile(large).points, [[-1, 0], [1, 3e-3]])
+    blanks = written(tmp_path, "blanks.txt", "i x[mm] z [um]\n1 0 3\n2 1 4\n")
+    np.testing.assert_allclose(lc.read_profile(blanks, columns=(2, 3)).points, [[0, 3e-3], [1, 4e-3]])
     with pytest.raises(ValueError, match="unit is 'ft': give one of 'm'"):
         lc.read_profile(bare, unit="ft")
     pairs: list[dict[str, Any]] = [{"columns": (1,)}, {"file_units": "mm"}]
@@ -252,8 +256,8 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("three.csv", b"0;1;2\n1;2;3\n", {}, {"line": 1}, r"columns=\(1, 3\)"),
     ("wide.csv", b"0;1\n1;2;3\n", {}, {"line": 2}, "3 columns: there are 2"),
     ("thin.csv", b"0;1\n1\n", {}, {"line": 2}, "1 columns: there are 2"),
-    ("column.csv", GOOD.encode(), {"columns": (1, 3)}, {"line": 2}, "there are 1 to 2"),
-    ("zero.csv", GOOD.encode(), {"columns": (0, 1)}, {"line": 2}, "there are 1 to 2"),
+    ("column.csv", GOOD.encode(), {"columns": (1, 3)}, {"line": 2}, "give two of 1 to 2"),
+    ("zero.csv", GOOD.encode(), {"columns": (0, 1)}, {"line": 2}, "give two of 1 to 2"),
     ("word.csv", b"0;1\n1;two\n", {}, {"line": 2}, "'two' are no two numbers"),
     ("thousands.csv", b"0;1\n1;1.234,5\n", {}, {"line": 2}, "are no two numbers"),
     ("mixed.csv", b"0.5;1\n1,5;2\n", {}, {"line": 2}, "decimal point, and others with a comma"),
@@ -266,7 +270,9 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("twice.csv", b"0;1\n1;2\n1;3\n2;4\n", {}, {"line": 3}, "x = 1 after 1"),
     ("still.csv", b"1;1\n1;2\n", {}, {"line": 2}, "x = 1 after 1"),
     ("half.csv", b"x [mm]; z\n0;1\n1;2\n", {}, {"line": 1}, "only one of x and z has a unit"),
-    ("mils.csv", b"x [mil]; z [mil]\n0;1\n1;2\n", {"unit": "mm"}, {}, "states no units: give file_units"),
+    ("mils.csv", b"x [mil]; z [mil]\n0;1\n1;2\n", {}, {"line": 1}, "units 'mil' and 'mil': give file_units"),
+    ("bare.csv", b"0;1\n1;2\n", {"unit": "mm"}, {}, "states no units: give file_units"),
+    ("twice.csv", GOOD.encode(), {"columns": (1, 1)}, {"line": 2}, "give two of 1 to 2"),
     ("wide16.csv", "0;1\n1;2".encode("utf-16")[:-1], {}, {"byte": 14}, "no text in UTF-16"),
     ("no_mark.csv", "0;1\n1;2\n".encode("utf-16-le"), {}, {"byte": 1}, "zero bytes"),
     ("rows.csv", GOOD.encode(), {"row": 1}, {}, "is text: columns and file_units are for texts"),

@@ -4,6 +4,20 @@ use crate::Real;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
+/// Two numbers, and no more: TOML would drop those beyond the length of an array.
+#[derive(Deserialize)]
+#[serde(try_from = "Vec<T>")]
+pub(crate) struct Pair<T>(pub [T; 2]);
+
+impl<T> TryFrom<Vec<T>> for Pair<T> {
+    type Error = String;
+
+    fn try_from(numbers: Vec<T>) -> Result<Self, String> {
+        let count = numbers.len();
+        numbers.try_into().map(Self).map_err(|_| format!("{count} numbers: there must be two"))
+    }
+}
+
 /// Reads bodies: for each the names of its parameters in a file, and its constructor.
 macro_rules! stored {
     ($($body:ident { $($field:ident: $type:ty),* } => $make:expr;)*) => {$(
@@ -21,9 +35,9 @@ macro_rules! stored {
     )*};
 }
 stored! {
-    Ellipse { along: T, across: T, angles: [T; 2] } => Self::new(along, across, angles);
-    Line { slope: T, domain: [T; 2] } => Self::new(slope, domain);
-    Involute { base_radius: T, origin: T, angles: [T; 2] } => Self::new(base_radius, origin, angles);
-    Crowning { depth: T, half_length: T, domain: [T; 2] } => Self::new(depth, half_length, domain);
-    Parabola { radius: T, domain: [T; 2] } => Self::new(radius, domain);
+    Ellipse { along: T, across: T, angles: Pair<T> } => Self::new(along, across, angles.0);
+    Line { slope: T, domain: Pair<T> } => Self::new(slope, domain.0);
+    Involute { base_radius: T, origin: T, angles: Pair<T> } => Self::new(base_radius, origin, angles.0);
+    Crowning { depth: T, half_length: T, domain: Pair<T> } => Self::new(depth, half_length, domain.0);
+    Parabola { radius: T, domain: Pair<T> } => Self::new(radius, domain.0);
 }

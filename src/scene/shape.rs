@@ -1,5 +1,6 @@
 //! Bodies by their parameters.
 
+use crate::profile::stored::Pair;
 use crate::profile::{
     Crowning, Ellipse, Fit, Involute, Line, Parabola, Placed, Placement, Spline, rounded_punch,
     wedge,
@@ -46,6 +47,7 @@ pub enum Shape<T> {
     /// Two flanks: [`wedge`].
     Wedge {
         /// Slopes of the left and the right flank.
+        #[serde(deserialize_with = "pair")]
         slopes: [T; 2],
         /// Length to which the flanks reach, on either side.
         reach: T,
@@ -62,6 +64,7 @@ pub enum Shape<T> {
     /// Measured points: [`Spline::fitted`].
     Spline {
         /// Points `[x, y]` in order of rising x.
+        #[serde(deserialize_with = "pairs")]
         points: Vec<[T; 2]>,
         /// Settings of the fit.
         #[serde(default)]
@@ -164,6 +167,14 @@ impl<T: Real> Step<T> {
             Self::Scaled(factor) => placement.scaled(factor),
         }
     }
+}
+
+fn pair<'de, T: Deserialize<'de>, D: Deserializer<'de>>(file: D) -> Result<[T; 2], D::Error> {
+    Pair::deserialize(file).map(|pair| pair.0)
+}
+
+fn pairs<'de, T: Deserialize<'de>, D: Deserializer<'de>>(file: D) -> Result<Vec<[T; 2]>, D::Error> {
+    Ok(Vec::<Pair<T>>::deserialize(file)?.into_iter().map(|pair| pair.0).collect())
 }
 
 /// Reads a body, and refuses one that cannot be built.

@@ -140,7 +140,8 @@ fn a_bad_file_is_refused_with_line_and_field() {
         ),
         ("radius = 1.0", "radius = 0.0", 7, "upper.shape.parabola", "the radius is 0:"),
         ("radius = 1.0", "radius = nan", 7, "upper.shape.parabola", "the radius is NaN:"),
-        ("-1.0, 1.0]", "-1.0]", 7, "upper.shape.parabola.domain", "length 1"),
+        ("-1.0, 1.0]", "-1.0]", 7, "upper.shape.parabola.domain", "1 numbers: there must be two"),
+        ("-1.0, 1.0]", "-1.0, 1.0, 2.0]", 7, "upper.shape.parabola.domain", "3 numbers"),
         (
             "flat\"\n",
             "flat\"\nsteps = [{ scaled = 0.0 }]\n",

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .errors import InputError, LineContactError, SceneFileError
+from .errors import InputError, InvalidLoadError, InvalidMomentError, LineContactError, SceneFileError
 from .exploring import explore
 from .exporting import write_csv, write_npz, write_vtk
 from .files import Scene
@@ -25,7 +25,7 @@ _OK, _FAILED, _USAGE, _SCENE, _OUTPUT, _INTERRUPTED = 0, 1, 2, 3, 4, 130
 _CODES = """exit codes:
   0  all contacts were solved
   1  a contact was not found, or is none
-  2  wrong arguments, or a control that is invalid
+  2  wrong arguments, or a load or moment that is invalid
   3  the scene file is missing or faulty
   4  a file cannot be written"""
 
@@ -69,7 +69,8 @@ def _positive(text: str) -> float:
 def _loads(text: str) -> list[float]:
     try:
         first, last, count = map(float, text.split(":")) if ":" in text else (float(text), float(text), 1.0)
-        if math.isfinite(first) and math.isfinite(last) and count.is_integer() and count >= 1:
+        several = count >= (1 if first == last else 2)
+        if math.isfinite(first) and math.isfinite(last) and count.is_integer() and several:
             return [float(load) for load in np.linspace(first, last, int(count))]
     except ValueError:
         pass
@@ -93,6 +94,9 @@ def _solve(given: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         parser.error(f"{given.scene} has no controls: give --load")
     if given.page and any({"moment", "centre_of_pressure"} & control.keys() for control in controls):
         parser.error("--page has a slider for the load: it does not show moments")
+    files = [Path(path).absolute() for path in (given.scene, given.csv, given.npz, given.vtk, given.page) if path]
+    if len(set(files)) < len(files):
+        parser.error("two of the files are the same one")
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
@@ -104,7 +108,8 @@ def _solve(given: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     codes = [_written(given, scene, rows)]
     for row in rows:
         if row.error is not None:
-            code = _USAGE if isinstance(row.error, InputError) else _FAILED
+            is_control = isinstance(row.error, (InvalidLoadError, InvalidMomentError))
+            code = _USAGE if is_control else _SCENE if isinstance(row.error, InputError) else _FAILED
             codes.append(_say(f"{given.scene}: {described(row.control)}: {row.error}", code))
     return max(codes)
 

@@ -143,7 +143,7 @@ class Edge(NamedTuple):
     def fixed(cls, x: float) -> Edge:
         """Creates an edge at a sharp corner at this x, a length, where the limit stays.
 
-        The body must press there.
+        The body must press there, and ends there: nothing beyond it is checked.
         """
         return cls("fixed", as_number(x, "x"))
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple, TypeAlias, cast
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 
@@ -30,7 +31,7 @@ from .bodies import (
     Spline,
     Wedge,
 )
-from .contact import Contact, Edge, Material, Prescribed, Reference, References, _both
+from .contact import Contact, Edge, Material, Prescribed, Reference, References, _both, _wanted
 from .errors import SceneFileError
 
 Fields: TypeAlias = dict[str, Any]
@@ -50,7 +51,8 @@ _SHAPES: dict[str, tuple[type[Body], tuple[str, ...]]] = {
 }
 
 
-class Scene(NamedTuple):
+@dataclass(frozen=True)
+class Scene:
     """The contents of a file: a contact, and the quantities to prescribe.
 
     Parameters
@@ -79,9 +81,20 @@ class Scene(NamedTuple):
 
     contact: Contact
     controls: Sequence[Prescribed] = ()
-    units: dict[str, str] = {}
+    units: Mapping[str, str] = field(default_factory=dict)
     title: str = ""
     references: References | None = None
+
+    def __post_init__(self) -> None:
+        """Refuses a scene that cannot be solved; a list of controls becomes a tuple."""
+        if not isinstance(self.contact, Contact):
+            raise TypeError(f"contact is {self.contact!r}: give a Contact")
+        object.__setattr__(self, "controls", tuple(dict(control) for control in self.controls))
+        for control in self.controls:
+            _wanted(control)
+        for name, label in (*self.units.items(), ("title", self.title)):
+            if name not in ("length", "pressure", "load", "title") or not isinstance(label, str):
+                raise TypeError(f"{name} is {label!r}: units have labels of length, pressure and load, as text")
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Scene:
@@ -95,7 +108,7 @@ class Scene(NamedTuple):
         form = _form(path)
         text = Path(path).read_bytes()
         try:
-            fields = json.loads(_native.scene_text(text.decode("utf-8"), form, "json"), object_hook=_finite)
+            fields = json.loads(_native.scene_text(text.decode("utf-8-sig"), form, "json"), object_hook=_finite)
         except UnicodeDecodeError as error:
             line = text[: error.start].count(b"\n") + 1
             raise SceneFileError(os.fspath(path), line, "", "the text is not UTF-8") from None
@@ -146,6 +159,8 @@ def _finite(fields: Fields) -> Fields:
 def _json(fields: Fields) -> str:
     try:
         return json.dumps(fields, default=_plain, allow_nan=False)
+    except SceneFileError:
+        raise
     except ValueError:
         raise SceneFileError("", None, "", "a number is not finite: a file cannot hold it") from None
 
@@ -180,23 +195,23 @@ def _read_body(fields: Fields) -> Body:
     return Placed(body, [(name, tuple(np.atleast_1d(numbers))) for name, numbers in steps])
 
 
-def _body_fields(body: Body, field: str) -> Fields:
+def _body_fields(body: Body, place: str) -> Fields:
     if isinstance(body, Placed):
         steps = [{name: numbers if numbers[1:] else numbers[0]} if numbers else name for name, numbers in body.steps]
-        return _body_fields(body.body, field) | {"steps": steps}
+        return _body_fields(body.body, place) | {"steps": steps}
     if type(body) is Flat:
         return {"shape": "flat"}
     if type(body) is Spline:
         fit = {"smooth": body.smooth, "outliers": body.outliers or 0.0}
         return {"shape": {"spline": {"points": body.points, "fit": fit}}}
     if type(body) is Piecewise:
-        parts = [_body_fields(part, f"{field}.parts[{i}]") for i, part in enumerate(body.parts)]
+        parts = [_body_fields(part, f"{place}.parts[{i}]") for i, part in enumerate(body.parts)]
         return {"shape": {"piecewise": {"parts": parts, "tolerance": body.tolerance}}}
     for kind, (made, names) in _SHAPES.items():
         if type(body) is made:
             return {"shape": {kind: dict(zip(names, body._arguments()))}}
     reason = "a function cannot be written: take one of the shapes, or a Spline through points of the curve"
-    raise SceneFileError("", None, field, f"{type(body).__name__}: {reason}")
+    raise SceneFileError("", None, place, f"{type(body).__name__}: {reason}")
 
 
 def _read_material(value: Named) -> Material:

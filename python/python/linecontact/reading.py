@@ -168,8 +168,8 @@ def _text(
     if columns is None and width > 2:
         raise MeasuredFileError(name, f"{width} columns: give those of x and z, as columns=(1, {width})", first + 1)
     columns = columns or (1, 2)
-    if min(columns) < 1 or max(columns) > width:
-        raise MeasuredFileError(name, f"columns are {columns}: there are 1 to {width}", first + 1)
+    if min(columns) < 1 or max(columns) > width or columns[0] == columns[1]:
+        raise MeasuredFileError(name, f"columns are {columns}: give two of 1 to {width}", first + 1)
     points, places, marks = [], [], set[str]()
     for line, content in enumerate(lines[first:], first + 1):
         cells = _cells(content, delimiter)
@@ -186,7 +186,7 @@ def _text(
             raise MeasuredFileError(name, "numbers with a decimal point, and others with a comma", line)
         points.append(numbers)
         places.append(line)
-    units = file_units or _units(name, lines[:first], delimiter, columns)
+    units = file_units or _units(name, lines[:first], delimiter, columns, width)
     return np.array(points, dtype=np.float64), places, units
 
 
@@ -211,7 +211,7 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
 def _number(cell: str) -> float | None:
     """Returns the number in a cell, NaN for one that was not measured, or None."""
     try:
-        return None if "_" in cell else float(cell.replace(",", ".") or "nan")
+        return None if "_" in cell else float(cell.replace(",", ".").replace("−", "-") or "nan")
     except ValueError:
         return None
 
@@ -230,15 +230,21 @@ def _first_row(name: str, lines: Sequence[str]) -> tuple[int, str | None, int]:
 
 
 def _units(
-    name: str, header: Sequence[str], delimiter: str | None, columns: tuple[int, int]
+    name: str, header: Sequence[str], delimiter: str | None, columns: tuple[int, int], width: int
 ) -> tuple[str, str]:
     """Returns the units of x and z that the header states; two empty ones if it states none."""
     for line in range(len(header), 0, -1):
         content = header[line - 1]
-        cells = _STATED.findall(content) or content.split() if delimiter is None else _cells(content, delimiter)
+        # White space around a bracket parts no columns.
+        cells = _cells(content if delimiter else re.sub(r"\s*([\[(/])\s*", r"\1", content), delimiter)
+        if delimiter is None and len(cells) != width:
+            cells = _STATED.findall(content)
         if max(columns) <= len(cells):
-            words = ([cells[column - 1], *_STATED.findall(cells[column - 1])] for column in columns)
-            x, z = (next((word for word in each if word in _METRES), "") for each in words)
+            stated = [_STATED.findall(cells[column - 1]) for column in columns]
+            words = ([cells[column - 1], *found] for column, found in zip(columns, stated, strict=True))
+            x, z = (next((word.lower() for word in each if word.lower() in _METRES), "") for each in words)
+            if all(stated) and not x and not z:
+                raise MeasuredFileError(name, f"units {stated[0][0]!r} and {stated[1][0]!r}: give file_units", line)
             if x and z:
                 return x, z
             if x or z:

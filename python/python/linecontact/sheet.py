@@ -80,7 +80,7 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
             numbers.update(zip(names, of(), strict=True))
         except SingularError as error:
             # The names of a place, and of a value, which is infinite there.
-            if names[1:]:
+            if names[0].endswith("_x"):
                 numbers.update({**dict.fromkeys(names, 0.0), names[0]: error.x, names[-1]: math.inf})
         except LineContactError:
             pass
@@ -158,15 +158,15 @@ def sheet(scene: Scene, row: Row, yield_stress: float | None) -> str:
     pressure = units["pressure"]
     lines = [scene.title, "", _line("lower body", str(contact.lower)), _line("upper body", str(contact.upper))]
     for name, (modulus, ratio) in zip(("lower", "upper"), contact._settings["materials"] or (), strict=False):
-        elastic = f"E = {modulus:g} {pressure}, Poisson's ratio {ratio:g}"
+        elastic = f"E = {modulus:g} {pressure}".rstrip() + f", Poisson's ratio {ratio:g}"
         lines.append(_line(f"{name} material", elastic if math.isfinite(modulus) else "rigid"))
     lines += [_line("prescribed", described(row.control)), ""]
     for name, (kind, label) in NUMBERS.items():
         if label and not math.isnan(numbers[name]):
             x, depth = (numbers.get(f"{name.removesuffix('_pressure')}_{of}", math.nan) for of in ("x", "depth"))
             note = f"against yield at {yield_stress:g} {pressure}" if name.startswith("safety") else ""
-            note += "" if math.isnan(x) else f"at x = {x:.4g}"
-            note += "" if math.isnan(depth) else f", depth {depth:.4g}"
+            note += "" if math.isnan(x) else f"at x = {x:.4g} {units['length']}".rstrip()
+            note += "" if math.isnan(depth) else f", depth {depth:.4g} {units['length']}".rstrip()
             text = f"{numbers[name]:.6g}" if kind else f"{numbers[name]:.3g}"
             whole, point, digits = text.partition(".")
             lines.append(_line(label, f"{whole:>8}{point + digits:<11}{units[kind]:<8}{note}"))
