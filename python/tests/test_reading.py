@@ -82,7 +82,7 @@ def test_units_and_columns(tmp_path: Path) -> None:
     wide = written(tmp_path, "wide.csv", "i;x [mm];y;z [um]\n1;0;9;3\n2;1;9;4\n")
     np.testing.assert_allclose(lc.read_profile(wide, columns=(2, 4)).points, [[0, 3e-3], [1, 4e-3]])
     large = written(tmp_path, "large.csv", "X [MM];Z [UM]\n−1;0\n1;3\n")
-    np.testing.assert_allclose(lc.read_profile(large).points, [[-1, 0], [1, 3e-3]])
+    np.testing.assert_allclose(lc.read_profile(large).points, [[-1.0, 0.0], [1.0, 3e-3]])
     blanks = written(tmp_path, "blanks.txt", "i x[mm] z [um]\n1 0 3\n2 1 4\n")
     np.testing.assert_allclose(lc.read_profile(blanks, columns=(2, 3)).points, [[0, 3e-3], [1, 4e-3]])
     with pytest.raises(ValueError, match="unit is 'ft': give one of 'm'"):
