@@ -178,9 +178,12 @@ fn the_smoothed_spline_is_the_most_likely() {
         let spline = Spline::fitted(&points, fit).unwrap();
         let slopes = [[0.1, 1.0], [0.25, -2.0], [0.7, 0.5]];
         let of = |log: f64| Dense::new(&points, spline.pieces(), log.exp(), &slopes);
-        let logs = (-1000..2500).map(|i| 0.01 * f64::from(i));
-        let best = logs.min_by(|a, b| of(*a).unlikelihood.total_cmp(&of(*b).unlikelihood));
-        let best = best.unwrap();
+        let likeliest = |centre: f64, step: f64, count: i32| {
+            let logs = (-count..=count).map(|i| centre + step * f64::from(i));
+            let tried = logs.map(|log| (of(log).unlikelihood, log));
+            tried.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap().1
+        };
+        let best = likeliest(likeliest(7.5, 0.5, 35), 0.01, 50);
         let dense = of(best);
         for (&[x, _], height) in points.iter().zip(&dense.heights) {
             assert!((spline.at(x).y - height).abs() < 2e-3 * noise, "{noise}: {x}");
