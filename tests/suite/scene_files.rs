@@ -1,7 +1,7 @@
 //! Scenes in files: every body through TOML and JSON and back, bit for bit, and what is refused.
 
 use linecontact::profile::{Crowning, Ellipse, Fit, Involute, Line, Parabola};
-use linecontact::scene::{PlacedShape, Scene, Shape, Step, Stiffness};
+use linecontact::scene::{PlacedShape, Scene, SceneError, Shape, Step, Stiffness};
 use linecontact::{
     Contact, Control, Edge, Ends, Flat, Material, PlaneState, Reference, References,
 };
@@ -121,10 +121,25 @@ fn a_smoothed_spline_keeps_its_uncertainty_where_it_is_placed() {
     assert!(here.2 > 0.0 && there.2 > 0.0);
 }
 
+type Read = fn(&str) -> Result<Scene<f64>, SceneError>;
+
+/// Asserts that the file is refused at a line and a field, for a reason, once a text in it is
+/// replaced.
+fn assert_refused(read: Read, good: &str, rows: &[(&str, &str, usize, &str, &str)]) {
+    assert!(read(good).is_ok());
+    for &(from, to, line, field, reason) in rows {
+        let text = good.replacen(from, to, 1);
+        let error = read(&text).expect_err(&text);
+        let place = (error.line, error.field.as_str());
+        assert!(place == (Some(line), field) && error.reason.contains(reason), "{text}{error:#?}");
+        let said = error.to_string();
+        assert!(said.starts_with(&format!("line {line}: {field}")), "{said}");
+    }
+}
+
 #[test]
 fn a_bad_file_is_refused_with_line_and_field() {
     let good = "title = \"x\"\n\n[lower]\nshape = \"flat\"\n\n[upper]\nshape = { parabola = { radius = 1.0, domain = [-1.0, 1.0] } }\n";
-    assert!(Scene::<f64>::from_toml(good).is_ok());
     let refused = [
         ("\"x\"", "x", 1, "", "quote"),
         ("title", "titel", 1, "titel", "unknown field `titel`"),
@@ -169,19 +184,12 @@ fn a_bad_file_is_refused_with_line_and_field() {
         ),
         ("\n\n", "\nunits = { width = \"mm\" }\n", 2, "units.width", "unknown field `width`"),
     ];
-    for (from, to, line, field, reason) in refused {
-        let text = good.replacen(from, to, 1);
-        let error = Scene::<f64>::from_toml(&text).expect_err(&text);
-        let place = (error.line, error.field.as_str());
-        assert!(place == (Some(line), field) && error.reason.contains(reason), "{text}{error:#?}");
-        println!("{error}");
-    }
+    assert_refused(Scene::from_toml, good, &refused);
 }
 
 #[test]
 fn a_bad_json_file_is_refused_with_line_and_field() {
     let good = "{\n\"lower\": {\"shape\": \"flat\"},\n\"upper\": {\"shape\": {\n\"wedge\": {\"slopes\": [-0.1, 0.1], \"reach\": 1}}}\n}";
-    assert!(Scene::<f64>::from_json(good).is_ok());
     let wedge = "\"wedge\": {\"slopes\": [-0.1, 0.1], \"reach\": 1}";
     let part = |from: f64, to: f64| {
         format!(r#"{{"shape": {{"line": {{"slope": 0.1, "domain": [{from}, {to}]}}}}}}"#)
@@ -202,11 +210,5 @@ fn a_bad_json_file_is_refused_with_line_and_field() {
         (": 1}}}\n}", ": 1}}}\n}\n]", 6, "", "trailing characters"),
         ("\n}", "", 4, "", "EOF"),
     ];
-    for (from, to, line, field, reason) in refused {
-        let text = good.replacen(from, to, 1);
-        let error = Scene::<f64>::from_json(&text).expect_err(&text);
-        let place = (error.line, error.field.as_str());
-        assert!(place == (Some(line), field) && error.reason.contains(reason), "{text}{error:#?}");
-        println!("{error}");
-    }
+    assert_refused(Scene::from_json, good, &refused);
 }

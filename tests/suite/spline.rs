@@ -464,3 +464,15 @@ fn points_of_any_size() {
         assert!(made >= 20, "{made}");
     }
 }
+
+#[test]
+fn rows_of_placed_points_are_those_measured() {
+    let (fit, to) = (Fit { smooth: true, ..Fit::default() }, Placement::default().mirrored());
+    let mut points = even(50, |x| x * x);
+    points[9][1] += 0.5;
+    let error = Spline::fitted_at(&points, fit, to).unwrap_err();
+    assert!(matches!(error, SplineError::Outlier { row: 10, .. }), "{error}");
+    assert!(matches!(Spline::fitted_at(&[], fit, to), Err(SplineError::TooFew { .. })));
+    let nowhere = Placement::default().scaled(0.0);
+    assert!(Spline::fitted_at(&even(50, |x: f64| x * x), fit, nowhere).is_err());
+}
