@@ -368,10 +368,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 }
 
-/// Tells whether two sets have the same number of contacts, each overlapping its counterpart.
+/// Tells whether two sets have the same number of contacts, and each contact and each gap between
+/// two overlaps its counterpart: a gap elsewhere may be the right one.
 fn is_alike<T: Real>(one: &[Interval<T>], other: &[Interval<T>]) -> bool {
-    let meet = |(one, other): (&Interval<T>, &Interval<T>)| {
-        one.left < other.right && other.left < one.right
-    };
-    one.len() == other.len() && one.iter().zip(other).all(meet)
+    let limits =
+        |on: &[Interval<T>]| -> Vec<T> { on.iter().flat_map(|on| [on.left, on.right]).collect() };
+    let (one, other) = (limits(one), limits(other));
+    let meet = |i: usize| one[i - 1] < other[i] && other[i - 1] < one[i];
+    one.len() == other.len() && (1..one.len()).all(meet)
 }
