@@ -9,6 +9,7 @@ use std::sync::Arc;
 // In the order of the documentation.
 mod limits;
 
+mod potential;
 mod pressure;
 
 mod peak;

@@ -78,20 +78,10 @@ impl Table {
             }
             table.at_end[j] = table.transform[j][..n].iter().sum();
         }
-        // 2 ∫ T_k dz = cos((k+1) θ)/(k+1) - cos((k-1) θ)/(k-1), with z = cos θ at node n - 1 - j
-        // for θ = (2j + 1) π/2n.
-        let cosine = |k: usize, j: usize| angle((2 * (n - 1 - j) + 1) * k % (4 * n)).cos();
-        let primitive = |k: usize, j: usize| match k {
-            0 => cosine(1, j),
-            1 => 0.25 * cosine(2, j),
-            k => 0.5 * (cosine(k + 1, j) / (k + 1) as f64 - cosine(k - 1, j) / (k - 1) as f64),
-        };
-        for (half, [from, to]) in [[0, middle(n)], [middle(n), n - 1]].into_iter().enumerate() {
-            for j in 0..n {
-                let term =
-                    |k: usize| table.transform[j][k] * (primitive(k, to) - primitive(k, from));
-                table.in_rises[half][j] = (0..n).map(term).sum();
-            }
+        let places = [0, middle(n), n - 1].map(|i| table.z[i]);
+        for j in 0..n {
+            let [first, middle, last] = values(&primitive(&table.transform[j][..n])[..=n], &places);
+            (table.in_rises[0][j], table.in_rises[1][j]) = (middle - first, last - middle);
         }
         table.set_spacing(n);
         table
@@ -159,13 +149,10 @@ impl Table {
     /// Returns the integrals of the polynomial with these values at the nodes, from the first node
     /// to a [middle](middle) one, and from there to the last.
     pub fn rises<T: Real>(&self, values: &[T]) -> [T; 2] {
-        let [mut first, mut second] = [T::zero(); 2];
-        for ((&value, &one), &other) in values.iter().zip(&self.in_rises[0]).zip(&self.in_rises[1])
-        {
-            first = fma(value, T::of(one), first);
-            second = fma(value, T::of(other), second);
-        }
-        [first, second]
+        [0, 1].map(|half| {
+            let terms = values.iter().zip(&self.in_rises[half]);
+            terms.fold(T::zero(), |sum, (&value, &share)| fma(value, T::of(share), sum))
+        })
     }
 
     /// Returns the larger of the last two coefficients, after the larger of the two before.
@@ -245,6 +232,19 @@ fn recurrence<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [[T; W
 /// Returns the polynomial at one point.
 pub(crate) fn value_at<T: Real>(coefficients: &[T], s: T) -> T {
     values(coefficients, &[s])[0]
+}
+
+/// Returns an antiderivative, which has one coefficient more.
+#[inline(always)]
+pub(crate) fn primitive<T: Real>(coefficients: &[T]) -> [T; MAX_SIZE + 1] {
+    let mut primitive = [T::zero(); MAX_SIZE + 1];
+    // 2 ∫ T_k ds = T_{k+1}/(k+1) - T_{k-1}/(k-1), but T₁ of T₀, and T₂/4 of T₁.
+    for (k, &before) in coefficients.iter().enumerate() {
+        let after = coefficients.get(k + 2).copied().unwrap_or(T::zero());
+        let before = if k == 0 { before + before } else { before };
+        primitive[k + 1] = (before - after) / T::count(2 * k + 2);
+    }
+    primitive
 }
 
 /// Returns `Σ a_k uᵏ` for |u| < 1, up to the last power that counts.

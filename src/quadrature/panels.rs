@@ -29,8 +29,9 @@ use super::{Estimate, Integrator, LoadCase, Moments, Quadrature};
 use crate::gap::{Cost, Gap, Guides};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES};
 use crate::{ContactError, Ends, InputError, Interval, Real, Side, SolveError};
-pub(crate) use cauchy_transform::{CauchyTransform, cauchy_transform};
+pub(crate) use cauchy_transform::{CauchyTransform, inverse, length, sqrt};
 pub(crate) use edge_integrals::rise as rises_over;
+pub(crate) use half_angle::{Arc, HalfAngle};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
@@ -83,9 +84,27 @@ pub(crate) fn spans<T: Real>(
     contact: usize,
 ) -> Vec<(Interval<T>, usize)> {
     let Some(integrator) = integrator.panels() else { return Vec::new() };
-    let (PanelSet { panels, .. }, on) = integrator.contact(contact);
     let span = |(panel, [left, right]): (&Panel<T>, [T; 2])| (Interval { left, right }, panel.n);
-    panel::spans(panel::within(panels, on), on).map(span).collect()
+    integrator.spans(contact).map(span).collect()
+}
+
+/// Shows the panels of an integrator prepared for a contact. For an integrator without panels,
+/// panels are sampled on the same contact.
+///
+/// # Errors
+/// Those of sampling the gap.
+pub(crate) fn with_panels<T: Real, R>(
+    integrator: &dyn Integrator<T>,
+    gap: &Gap<'_, T>,
+    on: Interval<T>,
+    show: impl FnOnce(&PanelIntegrator<T>) -> R,
+) -> Result<R, ContactError<T>> {
+    if let Some(integrator) = integrator.panels() {
+        return Ok(show(integrator));
+    }
+    let mut integrator = Panels::FULL.integrator()?;
+    integrator.prepare(gap, on)?;
+    with_panels(&*integrator, gap, on, show)
 }
 
 /// Switches an integrator of panels to several contacts; `None` for any other integrator, which
@@ -223,6 +242,19 @@ impl<T: Real> PanelIntegrator<T> {
     /// Returns the panels that hold one contact, and the contact.
     fn contact(&self, i: usize) -> (&PanelSet<T>, Interval<T>) {
         self.only().unwrap_or_else(|| (self.several.panel_set(i), self.several.contacts()[i]))
+    }
+
+    /// Lists the panels of one contact, each with its part of the contact.
+    pub(crate) fn spans(&self, contact: usize) -> impl Iterator<Item = (&Panel<T>, [T; 2])> {
+        let (PanelSet { panels, .. }, on) = self.contact(contact);
+        panel::spans(panel::within(panels, on), on)
+    }
+
+    /// Returns the slope over the only contact as a cosine series, and a flag: all of it, not only
+    /// the terms that count from afar. `None` with several contacts.
+    pub(crate) fn cosines(&self) -> Option<(Series<T>, bool)> {
+        let (panel_set, on) = self.only()?;
+        Some(edge_integrals::cosines(panel::within(&panel_set.panels, on), on))
     }
 
     fn turn_to_one(&mut self) {
@@ -475,7 +507,7 @@ impl<T: Real> PanelIntegrator<T> {
     }
 
     /// Returns K_b and K_a: the remainder at free edges, and the strength at the others.
-    fn strengths(&self, load_case: &LoadCase<T>) -> [Ends<T>; 2] {
+    pub(crate) fn strengths(&self, load_case: &LoadCase<T>) -> [Ends<T>; 2] {
         let zero = T::zero();
         let Some((_, m)) = self.moments else { return [Ends::both(zero); 2] };
         let mean_pressure = load_case.load / self.transform.on.half_width();

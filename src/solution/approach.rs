@@ -64,8 +64,9 @@ pub struct Approach<T> {
 impl<T: Real> Solution<'_, T> {
     /// Returns the approach of the bodies, to about 1e-12 of the integral of the logarithm.
     ///
-    /// It takes about ten microseconds, and no evaluation with [`Panels`](crate::Panels); several
-    /// contacts, and depths that are a small share of the half-width, take longer.
+    /// It takes no longer than some ten pressures, and no evaluation with
+    /// [`Panels`](crate::Panels). Several contacts take longer, as do depths of less than three
+    /// half-widths below a contact with breakpoints.
     ///
     /// ```
     /// use linecontact::profile::Parabola;
@@ -224,15 +225,13 @@ impl<'s, T: Real> Approaching<'s, T> {
         if !(is_integral(lower) || is_integral(upper)) {
             return Ok(constant);
         }
-        if self.solved.several().is_none() {
-            let transform = Pressure::new(self.solved)?.cauchy_transform()?;
+        if let Some(potential) = Pressure::new(self.solved)?.potential()? {
             let below =
                 |(i, (reference, body)): (usize, (Reference<T>, Elasticity<T>))| match reference {
                     Reference::Depth(depth) if !body.compliance.is_zero() => {
-                        let potential = transform.potential(x, depth)?;
-                        let [pull, _] = transform.at(x, depth);
+                        let [potential, pull] = potential.at(x, depth)?;
                         let logarithm = potential - integrals.load * scale.ln();
-                        Some(two * logarithm + depth * pull.im / (one - body.ratio))
+                        Some(two * logarithm + pull / (one - body.ratio))
                     }
                     _ => Some(constant[i]),
                 };

@@ -1,10 +1,11 @@
 //! The pressure of a solution.
 
+use super::potential::Potential;
 use super::pressure_integral::Density;
 use super::solved::Solved;
 use super::{ContactState, Solution};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::panels::{self, CauchyTransform};
+use crate::quadrature::panels::{self, CauchyTransform, PanelIntegrator};
 use crate::quadrature::{Estimate, Integrator, LoadCase};
 use crate::{ContactError, Ends, EvaluationError, Interval, Real, Side, SolveError};
 
@@ -225,7 +226,19 @@ impl<T: Real> Pressure<'_, T> {
     /// Returns the Cauchy transform of the pressure.
     pub(crate) fn cauchy_transform(&self) -> Result<CauchyTransform<T>, ContactError<T>> {
         let Self { gap, integrator, load_case, on, .. } = self;
-        panels::cauchy_transform(*integrator, gap, *on, load_case)
+        let of = |panels: &PanelIntegrator<T>| CauchyTransform::of(panels, load_case);
+        panels::with_panels(*integrator, gap, *on, of)
+    }
+
+    /// Returns the pressure on a single contact as seen from below; `None` for several.
+    pub(crate) fn potential(&self) -> Result<Option<Potential<T>>, ContactError<T>> {
+        let Self { gap, integrator, load_case, on, .. } = self;
+        let LoadCase { kappa, load, .. } = *load_case;
+        panels::with_panels(*integrator, gap, *on, |panels| {
+            let (series, is_whole) = panels.cosines()?;
+            let [_, strengths] = panels.strengths(load_case);
+            Some(Potential { on: *on, series, is_whole, strengths, kappa, load })
+        })
     }
 
     /// Returns the cost of preparing the pressure.

@@ -246,7 +246,7 @@ fn tolerance<T: Real>() -> T {
     T::epsilon().powf(T::of(0.75))
 }
 
-pub(super) fn add<T: Real, const N: usize>(sum: &mut [T; N], terms: &[T; N]) {
+fn add<T: Real, const N: usize>(sum: &mut [T; N], terms: &[T; N]) {
     for (sum, &term) in sum.iter_mut().zip(terms) {
         *sum += term;
     }

@@ -1,28 +1,22 @@
-//! The heights of the gap before loading over a contact, from its slopes alone.
+//! The heights of the gap before loading over a contact, from the panels of its slope.
 //!
 //! With `x = c + L cos θ` and h the height above the left limit,
 //!
 //! ```text
-//! h(x) = ∫ g dx from the left limit to x      (1/π) ∫ h dθ = (1/π) ∫ g θ dx      θ from 0 to π
+//! h(x) = ∫ g dx from the left limit to x      mean height: (1/π) ∫ h dθ
 //! ```
 //!
-//! The second is the first after integration by parts: θ/π is the share of the angles to the right
-//! of x. The 16-point Gauss rule is used on spans of θ that are halved until it agrees with the sum
-//! over the halves.
+//! On a panel h is a polynomial, and Gauss's rule gives its integral over θ.
 
-use super::pressure_integral::add;
 use super::solved::Solved;
-use crate::gap::Sampler;
+use crate::numerics::chebyshev::{evaluate, primitive, value_at};
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::search::{Bracket, Brent, SearchError, StoppingCriteria, TryFindError, try_find};
-use crate::{ContactError, EvaluationError, Interval, Real};
+use crate::quadrature::panels::{self, Arc, HalfAngle, Panel};
+use crate::search::{Bracket, Brent, LimitSearch, SearchError, StoppingCriteria};
+use crate::{ContactError, Real};
 
-/// Largest number of spans of θ beyond those between the breakpoints, before an integral is given
-/// up.
-const MAX_SPANS: usize = 20_000;
-
-/// Number of nodes on a span.
-const NODES: usize = 16;
+/// Number of nodes treated together.
+const LANES: usize = 8;
 
 /// Heights above the left limit of a contact.
 #[derive(Clone, Copy)]
@@ -35,142 +29,72 @@ pub(super) struct UndeformedGap<T> {
     pub at: Option<T>,
 }
 
-/// Span of θ, from its left end in x.
-struct Span<T> {
-    /// θ at the left end in x, and at the right end.
-    theta: [T; 2],
-    /// `∫ g dx` and `∫ g θ dx`, and in `size` the integrals of the absolute values.
-    sum: [T; 2],
-    size: [T; 2],
-    /// x and g at the nodes.
-    nodes: [[T; 2]; NODES],
-}
-
-/// Slope of the gap before loading, in one contact.
-struct Slopes<'s, T: Real> {
-    solved: Solved<'s, T>,
-    contact: usize,
-    on: Interval<T>,
-    sampler: Sampler<T>,
-}
-
-impl<T: Real> Slopes<'_, T> {
-    /// Returns the slope from the samples of the solve if they cover x, otherwise from the curves.
-    fn at(&mut self, x: T) -> Result<T, ContactError<T>> {
-        let known = self.solved.sampled_slope(self.contact, x);
-        known.map_or_else(|| self.sampler.slope(self.solved.gap, x), Ok)
-    }
-
-    fn span(&mut self, theta: [T; 2]) -> Result<Span<T>, ContactError<T>> {
-        let zero = T::zero();
-        let rule = GaussLegendre::sixteen();
-        let (half, middle) =
-            (T::of(0.5) * (theta[0] - theta[1]), T::of(0.5) * (theta[0] + theta[1]));
-        let mut span = Span { theta, sum: [zero; 2], size: [zero; 2], nodes: [[zero; 2]; NODES] };
-        for (i, node) in span.nodes.iter_mut().enumerate() {
-            let angle = middle - half * T::of(rule.nodes[i]);
-            let x = self.on.at_angle(angle);
-            let slope = self.at(x)?;
-            *node = [x, slope];
-            // dx = L sin θ dθ.
-            let term = T::of(rule.weights[i]) * half * self.on.half_width() * angle.sin() * slope;
-            for (k, term) in [term, term * angle].into_iter().enumerate() {
-                span.sum[k] += term;
-                span.size[k] += term.abs();
-            }
-        }
-        Ok(span)
-    }
-
-    /// Returns x and the slope at a limit, or `None` if the slope is not finite.
-    fn at_limit(&mut self, x: T) -> Option<[T; 2]> {
-        self.at(x).ok().filter(|slope| slope.is_finite()).map(|slope| [x, slope])
-    }
-
-    /// Lowers `found.least` to the height at the place between two nodes where the slope rises
-    /// through zero, if it is lower; `height` is given at the angle `start` close by.
-    fn dip(
-        &mut self,
-        found: &mut UndeformedGap<T>,
-        nodes: [Option<[T; 2]>; 2],
-        height: T,
-        start: T,
-    ) -> Result<(), ContactError<T>> {
-        let [Some([from, falls]), Some([to, rises])] = nodes else { return Ok(()) };
-        if !(falls < T::zero() && rises >= T::zero() && from < to) {
-            return Ok(());
-        }
-        let bracket = Bracket::new(from, to).values(falls, rises);
-        // The height is off by the square of the slope that is left.
-        let residual = (T::epsilon().sqrt() * (rises - falls)).to_subset_unchecked();
-        let brent = Brent { tolerance: StoppingCriteria { residual, ..StoppingCriteria::FULL } };
-        let lowest = match try_find(&brent, |x| self.at(x), &bracket) {
-            Ok(root) | Err(TryFindError::Search(SearchError::Budget { best: root })) => root.x,
-            Err(TryFindError::Function(error)) => return Err(error),
-            // The bracket is two neighbouring numbers: either will do.
-            Err(TryFindError::Search(_)) => from,
-        };
-        let least = height + self.span([start, self.on.angle(lowest)])?.sum[0];
-        found.least = found.least.min(least);
-        Ok(())
-    }
-}
-
 impl<T: Real> UndeformedGap<T> {
     pub fn new(solved: Solved<'_, T>, contact: usize, at: T) -> Result<Self, ContactError<T>> {
-        let (zero, on) = (T::zero(), solved.contacts()[contact]);
-        let stop = (at >= on.left && at <= on.right).then(|| on.angle(at));
-        let mut slopes = Slopes { solved, contact, on, sampler: Sampler::default() };
-        let mut angles = vec![T::pi()];
-        angles.extend(solved.gap.breakpoints(on).map(|x| on.angle(x)));
-        angles.push(zero);
-        // The leftmost span is the last, to be taken first.
-        let mut pending = Vec::new();
-        let mut size = [zero; 2];
-        for ends in angles.windows(2).rev().filter(|ends| ends[0] > ends[1]) {
-            let span = slopes.span([ends[0], ends[1]])?;
-            add(&mut size, &span.size);
-            pending.push(span);
-        }
-        let tolerance = T::epsilon().powf(T::of(0.75));
-        let (mut left, mut height, mut mean) = (MAX_SPANS, zero, zero);
-        let mut found = Self { mean, least: zero, at: None };
-        let mut before = slopes.at_limit(on.left);
-        while let Some(span) = pending.pop() {
-            let [from, to] = span.theta;
-            let middle = T::of(0.5) * (from + to);
-            let halves = [slopes.span([from, middle])?, slopes.span([middle, to])?];
-            let agrees = |k: usize| {
-                let refined = halves[0].sum[k] + halves[1].sum[k];
-                (refined - span.sum[k]).abs() <= tolerance * size[k]
-            };
-            if !(agrees(0) && agrees(1)) {
-                if left == 0 {
-                    return Err(
-                        EvaluationError::Integral { x: on.centre(), panels: MAX_SPANS }.into()
-                    );
+        let (gap, on) = (solved.gap, solved.contacts()[contact]);
+        panels::with_panels(solved.integrator, gap, on, |integrator| {
+            let mut found = Self { mean: T::zero(), least: T::zero(), at: None };
+            let (mut height, mut left) = (T::zero(), HalfAngle::of(on, on.left));
+            for (panel, x) in integrator.spans(contact) {
+                let right = HalfAngle::of(on, x[1]);
+                let arc = Arc::new(x[1] - x[0], left, right, on.right - on.left);
+                if at >= x[0] && at <= x[1] {
+                    found.at = Some(height + panel.rise(x[0], at));
                 }
-                left -= 1;
-                pending.extend(halves.into_iter().rev());
-                continue;
+                height = found.add(panel, x, &arc, height);
+                left = right;
             }
-            for half in halves {
-                let [start, end] = half.theta;
-                if let Some(stop) = stop.filter(|&stop| stop <= start && stop >= end) {
-                    found.at = Some(height + slopes.span([start, stop])?.sum[0]);
-                }
-                // A Gauss rule lists its nodes from right to left.
-                for node in half.nodes.into_iter().rev() {
-                    slopes.dip(&mut found, [before, Some(node)], height, start)?;
-                    before = Some(node);
-                }
-                height += half.sum[0];
-                mean += half.sum[1];
-                found.least = found.least.min(height);
+            found.mean *= T::frac_1_pi();
+            found
+        })
+    }
+
+    /// Adds the heights on a panel between two places, given the height at the left one; returns
+    /// the height at the right one.
+    fn add(&mut self, panel: &Panel<T>, x: [T; 2], arc: &Arc<T>, height: T) -> T {
+        let (half, by_half) = (panel.half(), T::one() / panel.half());
+        let primitive = primitive(panel.coefficients());
+        let primitive = &primitive[..=panel.length];
+        let ends = x.map(|x| panel.local(x));
+        let (rises, slopes) = evaluate(primitive, &ends);
+        let height_at = |rise: T| height + half * (rise - rises[0]);
+        let mut before = [ends[0], slopes[0]];
+        let mut pass = |least: &mut T, place: T, slope: T| {
+            if before[1] < T::zero() && slope >= T::zero() {
+                let lowest = lowest(panel, [before[0], place], [before[1], slope]);
+                *least = least.min(height_at(value_at(primitive, lowest)));
+            }
+            before = [place, slope];
+        };
+        let rule = GaussLegendre::suited(panel.length + 1, arc.tangent);
+        let mut sum = T::zero();
+        for block in 0..rule.n / LANES {
+            let [y, weight] = arc.nodes::<LANES>(rule, block);
+            let s = y.map(|y| ends[0] + (y - arc.to_left) * by_half);
+            let (rise, slope) = evaluate(primitive, &s);
+            for i in 0..LANES {
+                sum += weight[i] * height_at(rise[i]);
+                pass(&mut self.least, s[i], slope[i]);
             }
         }
-        let last = slopes.at_limit(on.right);
-        slopes.dip(&mut found, [before, last], height, zero)?;
-        Ok(Self { mean: mean / T::pi(), ..found })
+        pass(&mut self.least, ends[1], slopes[1]);
+        self.mean += sum * arc.tangent;
+        let end = height_at(rises[1]);
+        self.least = self.least.min(end);
+        end
+    }
+}
+
+/// Returns the place between two others, with their slopes, at which the slope of a panel rises
+/// through zero.
+fn lowest<T: Real>(panel: &Panel<T>, [from, to]: [T; 2], [falls, rises]: [T; 2]) -> T {
+    let bracket = Bracket::new(from, to).values(falls, rises);
+    // The height is off by the square of the slope that is left.
+    let residual = (T::epsilon().sqrt() * (rises - falls)).to_subset_unchecked();
+    let brent = Brent { tolerance: StoppingCriteria { residual, ..StoppingCriteria::FULL } };
+    match brent.find(&mut |s| value_at(panel.coefficients(), s), &bracket) {
+        Ok(root) | Err(SearchError::Budget { best: root }) => root.x,
+        // The places are two neighbouring numbers: either will do.
+        Err(_) => from,
     }
 }

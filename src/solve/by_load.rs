@@ -28,9 +28,9 @@ use crate::{
 /// Loads tried before the search is given up.
 const MAX_LOADS: usize = 100;
 
-/// First load for an approach, as a share of `κ δ`: a contact a millionth as wide as the bodies
-/// needs a twentieth.
-const FIRST_LOAD: f64 = 0.05;
+/// First load for an approach, as a share of `κ δ`: a third is right twenty half-widths above the
+/// references, and less further off. The samples of a contact serve a narrower one, not a wider one.
+const FIRST_LOAD: f64 = 0.4;
 
 /// Largest factor between the loads of two trials.
 const MAX_STEP: f64 = 1e3;

@@ -6,7 +6,7 @@
 //! shows in the mismatch.
 
 use crate::gap::CurveSample;
-use crate::numerics::chebyshev::{Table, evaluate, values};
+use crate::numerics::chebyshev::{Table, evaluate, primitive, values};
 use crate::profile::{Noise, Piece};
 use crate::{CurvePoint, Real};
 use std::array::from_fn;
@@ -236,13 +236,8 @@ impl<T: Real> Primitive<T> {
     fn new(at: [T; POINTS], rates: [T; POINTS]) -> Self {
         let (zero, table) = (T::zero(), Table::of(NODES));
         let c = table.coefficients(&from_fn::<T, NODES, _>(|j| rates[j]));
-        let mut series = [zero; NODES + 1];
-        // ∫ T_k dt = T_{k+1}/(2(k+1)) - T_{k-1}/(2(k-1)), and T₁ of T₀, T₂/4 of T₁.
-        for k in 1..=NODES {
-            let before = if k == 1 { c[0] + c[0] } else { c[k - 1] };
-            let after = c.get(k + 1).copied().unwrap_or(zero);
-            series[k] = (before - after) / T::count(2 * k);
-        }
+        let primitive = primitive(&c);
+        let mut series: [T; NODES + 1] = from_fn(|k| primitive[k]);
         let places = from_fn(|j| T::of(if j < NODES { table.z[j] } else { PROBE }));
         let integral: [T; POINTS] = values(&series, &places);
         let rest: [T; POINTS] = from_fn(|j| at[j] - integral[j]);

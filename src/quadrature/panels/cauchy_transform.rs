@@ -26,9 +26,8 @@
 
 use super::near_far_sum::{NearFarSum, Seen};
 use super::panel::within;
-use super::{Integrator, LoadCase, PanelIntegrator, Panels, Quadrature};
-use crate::gap::Gap;
-use crate::{ContactError, Ends, Interval, Real};
+use super::{LoadCase, PanelIntegrator};
+use crate::{Ends, Interval, Real};
 use nalgebra::Complex;
 
 /// Function of ζ, and its derivative.
@@ -55,28 +54,9 @@ pub(crate) struct CauchyTransform<T> {
     pub(super) load: T,
 }
 
-/// Returns the Cauchy transform of the pressure on the contact for which an integrator is prepared.
-/// For an integrator without panels, panels are sampled on the same contact.
-///
-/// # Errors
-/// Those of sampling the gap.
-pub(crate) fn cauchy_transform<T: Real>(
-    integrator: &dyn Integrator<T>,
-    gap: &Gap<'_, T>,
-    on: Interval<T>,
-    load_case: &LoadCase<T>,
-) -> Result<CauchyTransform<T>, ContactError<T>> {
-    if let Some(integrator) = integrator.panels() {
-        return Ok(CauchyTransform::of(integrator, load_case));
-    }
-    let mut integrator = Panels::FULL.integrator()?;
-    integrator.prepare(gap, on)?;
-    cauchy_transform(&*integrator, gap, on, load_case)
-}
-
 impl<T: Real> CauchyTransform<T> {
     /// Returns the transform of the pressure on prepared panels.
-    fn of(integrator: &PanelIntegrator<T>, load_case: &LoadCase<T>) -> Self {
+    pub fn of(integrator: &PanelIntegrator<T>, load_case: &LoadCase<T>) -> Self {
         let LoadCase { kappa, load, .. } = *load_case;
         if integrator.is_several {
             return integrator.several.cauchy_transform(kappa, load);
@@ -169,37 +149,6 @@ impl<T: Real> CauchyTransform<T> {
         [pull + more - self.far_away, (slope + steeper) * y]
     }
 
-    /// Returns `∫ P ln|ζ - s| ds` of a single contact, unless ζ is too near for Gauss's rule on its
-    /// panels. With the Joukowski variable u, |u| < 1, it is the real part of
-    ///
-    /// ```text
-    /// F ln(L/(2 u)) + L (κ/π ∫ g k dθ - π/2 (K_a - K_b) u)
-    /// k = i sin θ ln((1 - u exp(iθ))/(1 - u exp(-iθ))) - u
-    /// ```
-    ///
-    /// which is the integral of W.
-    pub fn potential(&self, x: T, depth: T) -> Option<T> {
-        let [(on, sum)] = &self.contacts[..] else { return None };
-        let (half, half_width) = (T::of(0.5), on.half_width());
-        let place = |t: T| Complex::new(x - t, depth) * (half / half_width);
-        let [left, right] = [place(on.left), place(on.right)];
-        let u = inverse(left + right + sqrt(left) * sqrt(right) * T::of(2.0));
-        let mut total = Complex::new(T::zero(), T::zero());
-        for [s, weighted] in
-            sum.nodes_seen_from(|t| length(place(t)) * (half_width + half_width))?
-        {
-            let sine = on.chebyshev_weight(s) / half_width;
-            let turn = Complex::new((s - on.centre()) / half_width, sine);
-            let [one, other] = [turn, turn.conj()].map(|turn| -(u * turn) + T::one());
-            let log = ln(one * inverse(other));
-            total += (Complex::new(-log.im, log.re) * sine - u) * weighted;
-        }
-        let Ends { left, right } = self.strengths;
-        let regular =
-            total.re * self.kappa * T::frac_1_pi() - T::frac_pi_2() * (right - left) * u.re;
-        Some(self.load * (half * half_width / length(u)).ln() + half_width * regular)
-    }
-
     /// Returns the part of given strengths, from the distances to both limits.
     fn of_strengths(&self, limits: [Complex<T>; 2]) -> WithDerivative<T> {
         let Ends { left, right } = self.strengths;
@@ -215,18 +164,18 @@ impl<T: Real> CauchyTransform<T> {
 }
 
 /// Returns the distance from zero.
-pub(super) fn length<T: Real>(z: Complex<T>) -> T {
+pub(crate) fn length<T: Real>(z: Complex<T>) -> T {
     z.re.hypot(z.im)
 }
 
 /// Returns the reciprocal, of however small a number.
-pub(super) fn inverse<T: Real>(z: Complex<T>) -> Complex<T> {
+pub(crate) fn inverse<T: Real>(z: Complex<T>) -> Complex<T> {
     let by = T::one() / length(z);
     Complex::new((z.re * by) * by, -(z.im * by) * by)
 }
 
 /// Returns the root whose real part is not negative, with all digits of both parts.
-pub(super) fn sqrt<T: Real>(z: Complex<T>) -> Complex<T> {
+pub(crate) fn sqrt<T: Real>(z: Complex<T>) -> Complex<T> {
     let half = T::of(0.5);
     let large = ((length(z) + z.re.abs()) * half).sqrt();
     if large.is_zero() {

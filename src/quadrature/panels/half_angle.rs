@@ -20,7 +20,7 @@ use crate::{Interval, Real};
 
 /// Point of the contact, by the cosine and sine of half its angle.
 #[derive(Clone, Copy)]
-pub(super) struct HalfAngle<T> {
+pub(crate) struct HalfAngle<T> {
     cos: T,
     sin: T,
 }
@@ -88,7 +88,7 @@ impl<T: Real> HalfAngle<T> {
 }
 
 /// Span of a contact, by the angles of its ends.
-pub(super) struct Arc<T> {
+pub(crate) struct Arc<T> {
     /// Middle of the span: cos θ_m and sin θ_m.
     pub cos: T,
     sin: T,

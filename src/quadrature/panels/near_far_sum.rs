@@ -77,21 +77,6 @@ impl<T: Real> NearFarSum<T> {
         group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes);
     }
 
-    /// Lists the nodes of all panels with the slope there times the weight; `None` for a point,
-    /// given by its distances from others, that is near to a panel.
-    pub fn nodes_seen_from(&self, distance: impl Fn(T) -> T) -> Option<Vec<[T; 2]>> {
-        let mut nodes = Vec::with_capacity(self.nodes.len());
-        for part in &self.parts {
-            let [from, to] = part.panel.x;
-            if distance(from) + distance(to) <= part.reach * (to - from) {
-                return None;
-            }
-            let own = &self.nodes[part.nodes.clone()];
-            nodes.extend(own.iter().map(|&[along, weighted]| [from + along, weighted]));
-        }
-        Some(nodes)
-    }
-
     /// Returns the cosine series of all panels, from the group of all; empty without groups.
     pub fn cosines(&self) -> (Coeffs<T>, usize) {
         self.groups.first().map_or(([T::zero(); MAX_SIZE], 0), Group::cosines)

@@ -1,6 +1,8 @@
 //! One polynomial piece of the slope, and the verdict on its coefficients.
 
-use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, SIZES, Table, expand_to, size_for, value_at};
+use crate::numerics::chebyshev::{
+    Coeffs, MAX_SIZE, SIZES, Table, expand_to, primitive, size_for, value_at, values,
+};
 use crate::real::same;
 use crate::{Interval, Real};
 
@@ -112,25 +114,9 @@ impl<T: Real> Panel<T> {
 
     /// Returns `∫ g dx` from one place to another.
     pub fn rise(&self, from: T, to: T) -> T {
-        self.half() * (self.primitive(self.local(to)) - self.primitive(self.local(from)))
-    }
-
-    /// Returns an antiderivative of the series.
-    fn primitive(&self, s: T) -> T {
-        let series = self.coefficients();
-        let (half, mut sum) = (T::of(0.5), series[0] * s);
-        // ∫ T_k = (T_{k+1}/(k+1) - T_{k-1}/(k-1))/2
-        let (mut before, mut here) = (T::one(), s);
-        for (k, &a) in series.iter().enumerate().skip(1) {
-            let after = (s + s) * here - before;
-            sum += a * if k == 1 {
-                half * s * s
-            } else {
-                half * (after / T::count(k + 1) - before / T::count(k - 1))
-            };
-            (before, here) = (here, after);
-        }
-        sum
+        let ends = [from, to].map(|x| self.local(x));
+        let [from, to] = values(&primitive(self.coefficients())[..=self.length], &ends);
+        self.half() * (to - from)
     }
 
     /// Returns the slope as `Σ c_k T_k(z)` over a contact `c + L z`.

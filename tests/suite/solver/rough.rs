@@ -107,9 +107,11 @@ fn a_search_that_is_made_again_is_the_one_from_scratch() {
     for (seed, wave, noise) in BODIES {
         let body = rough(seed, wave, noise);
         let scene = contact(&body);
-        for [from, to] in
-            [[622.2103148653723, 891.2410847967784], [46.187721501625326, 16.219135082380877]]
-        {
+        for [from, to] in [
+            [273.8999408532625, 852.0216324203742],
+            [48.9399628474564, 147.93110778687918],
+            [520.5446649000132, 837.105282094973],
+        ] {
             let mut solver = Solver::new();
             let load = Control::Load(to);
             if solver.solve(&scene, Control::Load(from)).is_err() {
