@@ -20,14 +20,20 @@
 //!
 //! with h the height of the gap between the bodies. There are as many conditions as free limits,
 //! two per contact. A limit e acts on each through `V(e)`, taken without its infinite part
-//! (Hadamard's finite part), so that the Jacobian is exact:
+//! (Hadamard's finite part), up to terms that vanish with the other conditions:
 //!
 //! ```text
-//! of V(ν):      (V(e) - V(ν))/(2 (e - ν))
+//! of V(ν):      V(e)/(2 (e - ν))
 //! of ∫ w p g:   V(e)/2
-//! of the load:  ((e - c) V(e) + ∫ w p g)/(2π)
-//! of a gap:     V_k(e)/(2π) ∫ S/p_k dx/(x - e)   p_k = p/(x - ν_k),  V_k = (V - V(ν_k))/(x - ν_k)
+//! of the load:  (e - c) V(e)/(2π)
+//! of a gap:     V(e)/(2π (e - ν)) ∫ S/p_k dx/(x - e)        p_k = p/(x - ν_k)
 //! ```
+//!
+//! These are the conditions on a pressure `-κ S/(2 π² p) V(e)/(x - e)`, singular at e. So a step δ
+//! of Newton's method gives the pressure that meets all conditions on the contacts at hand, with a
+//! singularity of the strength `V(e) δ` at each limit. A limit has to move outward where that is
+//! positive, and does if `V(e)` has the sign of a positive pressure next to it. At trial contacts
+//! with tension there, the sign of `V(e)` is reversed, so that it still does.
 //!
 //! As a gap of width w closes, `V(ν)` becomes π²/S times the pressure in its place. The condition
 //! of the gap vanishes with w² whatever the pressure does, so that a gap of no width would meet it

@@ -1,9 +1,10 @@
 //! Newton's method on all limits of several contacts at once.
 //!
-//! The equations and their exact Jacobian are those of the quadrature. A contact or a gap that a
-//! step would make more than two thirds narrower is held at a third, with one condition left open,
-//! so that its limits do not drag all others along. If it is held step after step, the gap closes,
-//! or the contact does not exist; and a gap closes that the heights of the bodies no longer
+//! The equations and their Jacobian are those of the quadrature: a step moves each limit outward if
+//! the pressure on the contacts at hand would have a positive singularity there, and inward if a
+//! negative one. So a gap that is none closes, and a contact that is none vanishes, whatever the
+//! other limits do. A step leaves a third of a width. If a width is cut so step after step, the gap
+//! closes, or the contact does not exist; and a gap closes that the heights of the bodies no longer
 //! resolve. The caller starts again without all of these.
 
 mod widths;
@@ -147,7 +148,7 @@ impl<T: Real> NewtonSeveral<T> {
             if let Err(stop) = self.assemble(several, &turned, conditions)? {
                 return Ok(Err(stop));
             }
-            self.hold();
+            self.shorten();
             if !self.step.iter().all(|step| step.is_finite()) {
                 break;
             }
@@ -244,7 +245,7 @@ impl<T: Real> NewtonSeveral<T> {
         let times = |&(last, times): &(Side, i32)| (passed == Some(last)).then_some(times);
         let times = self.passed.as_ref().and_then(times).unwrap_or(0);
         self.passed = passed.map(|side| (side, times + 1));
-        let is_left = |i: &Width| i % 2 == 1 || self.on[i / 2].left < self.on[i / 2].right;
+        let is_left = |&i: &Width| self.width(i) > T::zero();
         if !self.widths.iter().all(is_left) || self.cut.iter().any(|&times| times > MAX_CUT) {
             return Err(Stop::Gone);
         }

@@ -28,7 +28,8 @@ pub(crate) struct System<T> {
     pub load_row: usize,
     /// Limits, from left to right.
     pub(super) limits: Vec<T>,
-    /// V at the limits, and at the zeros of p.
+    /// V at the limits, with the sign that it has if the pressure next to them is positive, and V
+    /// at the zeros of p.
     pub(super) at_ends: Vec<T>,
     at_zeros: Vec<T>,
     /// Parts of V by the contacts far from each gap.
@@ -67,17 +68,6 @@ impl<T: Real> System<T> {
             self.jacobian.push(by(self, i));
         }
     }
-
-    /// Returns the row of the condition that fails if a gap has closed and the pressure in its
-    /// place is positive.
-    pub fn row_of_gap(&self, gap: usize) -> usize {
-        if gap < self.at_zeros.len() { gap } else { self.load_row }
-    }
-
-    /// Returns the row of the condition that a gap closes at both ends.
-    pub fn row_of_closing(&self, gap: usize) -> usize {
-        self.load_row + 1 + gap
-    }
 }
 
 impl<T: Real> Several<T> {
@@ -93,8 +83,11 @@ impl<T: Real> Several<T> {
         let gap = |pair: &[Interval<T>]| Interval { left: pair[0].right, right: pair[1].left };
         let part = |k: usize, x: T| self.parts[k].seen_from(x);
         system.far.set(contacts, contacts.windows(2).map(gap), &part);
-        for i in 0..self.count {
-            system.at_ends.extend(Side::BOTH.map(|side| self.at_end(&system.far, i, side)));
+        for (i, on) in contacts.iter().enumerate() {
+            system.at_ends.extend(Side::BOTH.map(|side| {
+                let size = self.at_end(&system.far, i, side).abs();
+                size * self.weight.on_contact(i, on[side]).signum()
+            }));
         }
         let zeros = self.weight.zeros().iter().enumerate();
         system.at_zeros.extend(zeros.map(|(k, &x)| self.in_gap(&system.far, k, x, None)));
@@ -133,7 +126,7 @@ impl<T: Real> Several<T> {
             let value = system.at_zeros[k];
             let share = |on: Interval<T>| one / (x - on.right).abs().min((x - on.left).abs());
             system.add(value, self.moments_error(share), free.clone(), |known, i| {
-                half * (known.at_ends[i] - value) / (known.limits[i] - x)
+                half * known.at_ends[i] / (known.limits[i] - x)
             });
         }
         let mut borne = total / pi;
@@ -151,9 +144,8 @@ impl<T: Real> Several<T> {
         });
         system.add(borne - load, error / pi, free, |known, i| {
             let value = known.at_ends[i];
-            let acting =
-                if no_corners { (known.limits[i] - centre) * value + total } else { value };
-            half * acting / pi
+            let arm = if no_corners { known.limits[i] - centre } else { one };
+            half * arm * value / pi
         });
     }
 
@@ -194,8 +186,9 @@ impl<T: Real> Several<T> {
         let square = left.on.half_width().min(right.on.half_width()).powi(2);
         let by_width = (known + known) / width * square / (square + width * width);
         let by_limit = |known: &System<T>, i: usize| {
-            let acting = self.without_zero(k, known, known.limits[i], known.at_ends[i]);
-            acting / (pi + pi) * known.sums[i]
+            let zero = self.weight.zeros().get(k);
+            let away = zero.map_or(T::one(), |&zero| known.limits[i] - zero);
+            known.at_ends[i] / away / (pi + pi) * known.sums[i]
         };
         let ends = [2 * k + 1, 2 * k + 2];
         let [by_left, by_right] = ends.map(|i| by_limit(system, i).abs());
@@ -337,15 +330,14 @@ impl<T: Real> Several<T> {
         let powers = self.powers(at);
         let [first, second] = self.afar(at);
         let reach = (hull.left - at).abs().max((hull.right - at).abs());
-        let (reach, borne, before, last) = match no_corners {
-            true => (reach * reach, powers[2], powers[1], powers[0]),
-            false => (reach, powers[1], powers[0], zero),
+        let (reach, borne) = match no_corners {
+            true => (reach * reach, powers[2]),
+            false => (reach, powers[1]),
         };
         let error = self.parts().iter().fold(zero, |sum, part| sum + part.moments.error) * reach;
         system.add(borne - first * load, error, self.free(), |known, i| {
             let away = known.limits[i] - at;
-            let acting = if no_corners { away * away } else { away } * known.at_ends[i] / pi;
-            half * (acting + away * last + before - load)
+            half * if no_corners { away * away } else { away } * known.at_ends[i] / pi
         });
         system.jacobian.push(second);
     }

@@ -1,7 +1,6 @@
 //! Widths of contacts and of the gaps between them, and limits on their change in one step.
 
 use super::{MAX_CUT, MAX_CUT_STEPS, NewtonSeveral, Width};
-use crate::numerics::LinearSystem;
 use crate::{Interval, Real};
 use std::cmp::Ordering;
 
@@ -15,91 +14,28 @@ const MAX_GROWTH: f64 = 4.0;
 const CLOSED_WIDTH: f64 = 64.0;
 
 impl<T: Real> NewtonSeveral<T> {
-    /// Holds each width that the step would take below its least at the least, moves all other
-    /// limits accordingly, and lists these widths. For each, one condition is left open: the one
-    /// that a pressure in the gap would violate, or the height of the contact above the others.
-    pub(super) fn hold(&mut self) {
+    /// Shortens the moves of the limits: two neighbours leave at least a share of the width between
+    /// them, and a limit moves outward by no more than the width of its contact. Lists the widths
+    /// that would have become too narrow.
+    pub(super) fn shorten(&mut self) {
         self.widths.clear();
-        let (mut full, mut responses) = (Vec::new(), Vec::new());
-        let (mut linear, mut matrix) = (LinearSystem::new(), Vec::new());
-        let (mut excess, mut open) = (Vec::new(), Vec::new());
-        while let Some(width) = self.furthest().filter(|width| !self.widths.contains(width)) {
-            if self.widths.is_empty() {
-                full.clone_from(&self.step);
-            }
-            self.widths.push(width);
-            if !self.leave_open(width) {
-                break;
-            }
-            let mut response = Vec::new();
-            self.linear.solve(&self.unit, &mut response);
-            responses.push(response);
-            matrix.clear();
-            excess.clear();
-            for &i in &self.widths {
-                // In `advance` the square of a width changes in proportion to the step.
-                let least = self.least(i);
-                let most = T::of(0.5) * (T::one() - least * least) * self.width(i);
-                excess.push(self.narrows(&full, i) - most);
-                matrix.extend(responses.iter().map(|response| self.narrows(response, i)));
-            }
-            if !linear.factor(&matrix, excess.len()) {
-                break;
-            }
-            linear.solve(&excess, &mut open);
-            if !open.iter().all(|open| open.is_finite()) {
-                break;
-            }
-            self.step.copy_from_slice(&full);
-            for (response, &open) in responses.iter().zip(&open) {
-                for (step, &by_open) in self.step.iter_mut().zip(response) {
-                    *step -= open * by_open;
-                }
-            }
-            self.set_moves();
-        }
-    }
-
-    /// Returns the width that the step takes furthest below its least, if any.
-    fn furthest(&self) -> Option<Width> {
-        let mut worst: Option<(T, Width)> = None;
-        for i in 0..self.moves.len() - 1 {
-            let share = (self.moves[i + 1] - self.moves[i]) / self.width(i);
-            let (square, least) = (T::one() + share + share, self.least(i));
-            if square < least * least && worst.is_none_or(|(least, _)| square < least) {
-                worst = Some((square, i));
+        let half = T::of(0.5);
+        for i in self.free() {
+            let (contact, is_left) = (i - i % 2, i.is_multiple_of(2));
+            let gap = if is_left { i.checked_sub(1) } else { Some(i) };
+            let gap = gap.filter(|&gap| gap + 1 < self.moves.len());
+            let most = |i: Width| half * (T::one() - self.least(i)) * self.width(i);
+            let is_inward = (self.moves[i] > T::zero()) == is_left;
+            let (narrowed, most) = match gap {
+                _ if is_inward => (Some(contact), most(contact)),
+                Some(gap) if most(gap) < self.width(contact) => (Some(gap), most(gap)),
+                _ => (None, self.width(contact)),
+            };
+            if self.moves[i].abs() > most {
+                self.moves[i] = most * self.moves[i].signum();
+                self.widths.extend(narrowed);
             }
         }
-        worst.map(|(_, i)| i)
-    }
-
-    /// Sets the right-hand side that leaves the condition of a width open. Tells whether there is
-    /// one.
-    fn leave_open(&mut self, i: Width) -> bool {
-        let contact = i / 2;
-        self.unit.clear();
-        self.unit.resize(self.step.len(), T::zero());
-        if i % 2 == 1 {
-            self.unit[self.system.row_of_gap(contact)] = T::one();
-            return true;
-        }
-        if let Some(before) = contact.checked_sub(1) {
-            self.unit[self.system.row_of_closing(before)] = T::one();
-        }
-        if contact + 1 < self.on.len() {
-            self.unit[self.system.row_of_closing(contact)] = -T::one();
-        }
-        self.on.len() > 1
-    }
-
-    /// Returns the length by which a step makes a width narrower.
-    fn narrows(&self, step: &[T], i: Width) -> T {
-        let free = self.free();
-        let at = |limit: usize| match free.contains(&limit) {
-            true => step[limit - free.start],
-            false => T::zero(),
-        };
-        at(i + 1) - at(i)
     }
 
     /// Returns the least share of a width that a step leaves. A width that was kept from shrinking
