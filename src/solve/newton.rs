@@ -1,6 +1,6 @@
 //! Newton's method on all limits of the contacts at once, and on the load or the tilt if sought.
 //!
-//! A search goes from trial to trial. Each trial takes the equations and their exact Jacobian from
+//! A search goes from trial to trial. Each trial takes the equations and their Jacobian from
 //! the quadrature, and makes the Newton step, cut short if it would lead too far. The search ends
 //! when the next step would be below rounding, or when rounding keeps the steps from shrinking
 //! further.

@@ -21,7 +21,7 @@ use std::ops::Range;
 /// Steps before the search is given up.
 const MAX_STEPS: usize = 60;
 
-/// Largest number of steps in a row in which the same width is held, each time at a smaller share,
+/// Largest number of steps in a row in which the same width is cut, each time to a smaller share,
 /// or the same end is passed. Then that contact or gap is taken not to exist: a gap at a kink, or a
 /// contact where the bodies have just met, may be as narrow as rounding, and 0.3⁴⁵ is less.
 const MAX_CUT: i32 = 9;
@@ -79,10 +79,10 @@ pub(in super::super) struct NewtonSeveral<T> {
     /// Flags: the outermost limit on this side stays in place.
     held: Ends<bool>,
     progress: Progress<T>,
-    /// Number of steps in a row in which each width was held, and an end was passed.
+    /// Number of steps in a row in which each width was cut, and an end was passed.
     cut: Vec<i32>,
     passed: Option<(Side, i32)>,
-    /// Widths held in this step.
+    /// Widths cut in this step.
     widths: Vec<Width>,
     system: System<T>,
     linear: LinearSystem<T>,
@@ -220,7 +220,7 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Takes the step of the limits; tells whether widths were held or an end passed.
+    /// Takes the step of the limits; tells whether widths were cut or an end passed.
     fn limit(&mut self, conditions: &Conditions<'_, '_, T>) -> Result<bool, Stop<T>> {
         let (hull, ends) = (self.hull(), conditions.ends);
         self.advance();

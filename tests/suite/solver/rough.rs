@@ -103,34 +103,16 @@ fn under_a_load_what_is_solved_from_scratch_is_solved_from_the_last_contact() {
 /// includes both.
 #[test]
 fn a_search_that_is_made_again_is_the_one_from_scratch() {
-    let mut again = 0;
-    for (seed, wave, noise) in BODIES {
-        let body = rough(seed, wave, noise);
-        let scene = contact(&body);
-        for [from, to] in [
-            [273.8999408532625, 852.0216324203742],
-            [48.9399628474564, 147.93110778687918],
-            [520.5446649000132, 837.105282094973],
-        ] {
-            let mut solver = Solver::new();
-            let load = Control::Load(to);
-            if solver.solve(&scene, Control::Load(from)).is_err() {
-                continue;
-            }
-            let [Ok(cold), Ok(warm)] = [scene.solve(load), solver.solve(&scene, load)] else {
-                continue;
-            };
-            if warm.report().attempts()[0].start == Start::Last {
-                continue;
-            }
-            println!("body {seed}, {from} to {to}");
-            again += 1;
-            assert_eq!(warm.report(), cold.report());
-            assert_eq!(warm.intervals(), cold.intervals());
-            assert!(warm.cost().samples > cold.cost().samples);
-        }
-    }
-    assert!(again > 0);
+    let (seed, wave, noise) = BODIES[0];
+    let body = rough(seed, wave, noise);
+    let (scene, mut solver) = (contact(&body), Solver::new());
+    let [first, load] = [245.43284518111724, 897.7060433608567].map(Control::Load);
+    solver.solve(&scene, first).unwrap();
+    let [cold, warm] = [scene.solve(load), solver.solve(&scene, load)].map(Result::unwrap);
+    assert_ne!(warm.report().attempts()[0].start, Start::Last);
+    assert_eq!(warm.report(), cold.report());
+    assert_eq!(warm.intervals(), cold.intervals());
+    assert!(warm.cost().samples > cold.cost().samples);
 }
 
 /// Loads under which a gap lies far from a contact whose pressure takes more than 32 values: those
