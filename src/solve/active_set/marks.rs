@@ -1,6 +1,6 @@
 //! Cells in which contacts are not yet resolved, and the contacts that cells show.
 
-use super::{ActiveSet, Cell, Coarse};
+use super::{ActiveSet, Coarse};
 use crate::{Ends, Interval, Real};
 
 /// Least width of the cells at a narrow gap in a contact, as a share of the contact.
@@ -103,9 +103,9 @@ impl<T: Real> ActiveSet<T> {
             }
             let sunk = self.level + self.slope * self.arm(x) - self.potential_at(x, i);
             let gap = self.rise_of(height, lowest) - sunk;
+            let around = &self.cells[i.saturating_sub(1)..(i + 2).min(self.cells.len())];
+            let pressure = around.iter().fold(T::zero(), |most, cell| most.max(cell.pressure()));
             if !cell.loaded {
-                let around = &self.cells[i.saturating_sub(1)..(i + 2).min(self.cells.len())];
-                let pressure = around.iter().map(Cell::pressure).fold(T::zero(), T::max);
                 marks[i] |= gap < -T::of(0.1) * pressure * cell.width();
                 before = None;
                 continue;
@@ -113,10 +113,9 @@ impl<T: Real> ActiveSet<T> {
             // The gap is closed at the centre.
             for (there, gap_there) in before.into_iter().chain([(cell.centre(), T::zero())]) {
                 let (along, rise) = ((x - there).abs(), (gap - gap_there).abs());
-                // A wave of this slope has pressures of up to 1/π of it. Next to a high crest, the
-                // pressure of the neighbours would hide a gap.
+                // A wave of this slope has pressures of up to 1/π of it.
                 marks[i] |= along > cell.width() / T::of(64.0)
-                    && rise > T::of(0.5) * T::pi() * cell.pressure() * along;
+                    && rise > T::of(0.5) * T::pi() * pressure * along;
             }
             if before.is_none_or(|(there, _)| x - there > cell.width() / T::of(64.0)) {
                 before = Some((x, gap));
