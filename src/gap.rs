@@ -301,24 +301,16 @@ impl<'b, T: Real> Gap<'b, T> {
     /// from one piece to the next.
     pub fn breakpoint_after(&self, x: T) -> Option<T> {
         let x = x.max(self.range[0]);
-        let [lower, upper] = [0, 1].map(|i| self.bodies[i].breakpoint_after(x));
-        let breakpoint = match (lower, upper) {
-            (Some(lower), Some(upper)) => Some(lower.min(upper)),
-            (lower, upper) => lower.or(upper),
-        };
-        breakpoint.filter(|&breakpoint| breakpoint < self.range[1])
+        let breakpoints = self.bodies.iter().filter_map(|body| body.breakpoint_after(x));
+        breakpoints.reduce(T::min).filter(|&breakpoint| breakpoint < self.range[1])
     }
 
     /// Returns the last place to the left of `x`, and on both bodies, where either profile passes
     /// from one piece to the next.
     pub fn breakpoint_before(&self, x: T) -> Option<T> {
         let x = x.min(self.range[1]);
-        let [lower, upper] = [0, 1].map(|i| self.bodies[i].breakpoint_before(x));
-        let breakpoint = match (lower, upper) {
-            (Some(lower), Some(upper)) => Some(lower.max(upper)),
-            (lower, upper) => lower.or(upper),
-        };
-        breakpoint.filter(|&breakpoint| breakpoint > self.range[0])
+        let breakpoints = self.bodies.iter().filter_map(|body| body.breakpoint_before(x));
+        breakpoints.reduce(T::max).filter(|&breakpoint| breakpoint > self.range[0])
     }
 
     /// Tells whether either profile passes from one piece to the next at `x`.

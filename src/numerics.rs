@@ -18,14 +18,11 @@ pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     let mut sums = [T::zero(); 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
     let rest = a4.remainder().iter().zip(b4.remainder());
-    let mut total = rest.fold(T::zero(), |sum, (&a, &b)| sum + a * b);
+    let total = rest.fold(T::zero(), |sum, (&a, &b)| sum + a * b);
     for (a, b) in a4.zip(b4) {
         for i in 0..4 {
             sums[i] += a[i] * b[i];
         }
     }
-    for sum in sums {
-        total += sum;
-    }
-    total
+    sums.into_iter().fold(total, |total, sum| total + sum)
 }

@@ -30,17 +30,11 @@ pub(crate) enum Combine {
 
 impl Combine {
     fn of<T: Real>(self, one: T, other: T) -> T {
-        match self {
-            Self::Sum => one + other,
-            Self::Product => one * other,
-        }
+        if self == Self::Sum { one + other } else { one * other }
     }
 
     fn nothing<T: Real>(self) -> T {
-        match self {
-            Self::Sum => T::zero(),
-            Self::Product => T::one(),
-        }
+        if self == Self::Sum { T::zero() } else { T::one() }
     }
 }
 

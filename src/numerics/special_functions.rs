@@ -22,16 +22,8 @@ pub(crate) fn convex_root<T: Real>(start: T, function: impl Fn(T) -> [T; 2]) -> 
         [value, _] if value == T::zero() => x,
         [value, slope] => x - value / slope,
     };
-    let mut x = step(start);
-    for _ in 0..60 {
-        let next = step(x);
-        if next < x {
-            x = next;
-        } else {
-            break;
-        }
-    }
-    x
+    let further = |&x: &T| Some(step(x)).filter(|&next| next < x);
+    std::iter::successors(Some(step(start)), further).take(61).fold(start, |_, x| x)
 }
 
 /// Returns `u - atan u` for u ≥ 0.
@@ -112,10 +104,9 @@ pub(crate) fn elliptic<T: Real>(complement: T, p: T, a: T, b: T) -> T {
 }
 
 /// Returns `∫ cosⁿ φ dφ` from 0 to π/2, which is `sqrt(π)/2 Γ((n+1)/2)/Γ(n/2+1)`, for n ≥ 0.
-pub(crate) fn wallis<T: Real>(n: T) -> T {
-    let (one, two) = (T::one(), T::of(2.0));
+pub(crate) fn wallis<T: Real>(mut n: T) -> T {
+    let (one, two, mut factor) = (T::one(), T::of(2.0), T::one());
     // W(n) = W(n+2) (n+2)/(n+1), until n is large.
-    let (mut n, mut factor) = (n, one);
     while n < T::of(24.0) {
         factor *= (n + two) / (n + one);
         n += two;
