@@ -11,7 +11,7 @@ use crate::real::fma;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// Numbers of nodes in use, multiples of four for the sake of vector instructions.
+/// Numbers of nodes in use: multiples of four, for the sake of vector instructions.
 pub(crate) const SIZES: [usize; 6] = [4, 8, 12, 16, 24, 32];
 /// Largest of the [`SIZES`].
 pub(crate) const MAX_SIZE: usize = 32;
@@ -50,7 +50,7 @@ pub(crate) struct Table {
     /// Share of the value at node j in coefficient k, as `transform[j][k]`.
     transform: [[f64; MAX_SIZE]; MAX_SIZE],
     /// Share of the value at node j in the value at the right end.
-    at_end: [f64; MAX_SIZE],
+    pub at_end: [f64; MAX_SIZE],
     /// Share of the value at node j in the integrals from the first node to a [middle](middle) one,
     /// and from there to the last.
     in_rises: [[f64; MAX_SIZE]; 2],
@@ -67,14 +67,15 @@ pub(crate) fn middle(n: usize) -> usize {
 impl Table {
     fn new(n: usize) -> Self {
         let mut table = Self::default();
+        // With z = cos θ at node n - 1 - j for θ = (2j + 1) π/2n.
         let angle = |eighths: usize| PI * eighths as f64 / (2 * n) as f64;
+        let cosine = |k: usize, j: usize| angle((2 * (n - 1 - j) + 1) * k % (4 * n)).cos();
         for j in 0..n {
             // sin of a small angle of either sign, so that the nodes are symmetric.
             table.z[j] = ((2.0 * j as f64 + 1.0 - n as f64) * PI / (2 * n) as f64).sin();
             table.sine[j] = (1.0 - table.z[j] * table.z[j]).sqrt();
             for k in 0..n {
-                let cosine = angle((2 * (n - 1 - j) + 1) * k % (4 * n)).cos();
-                table.transform[j][k] = if k == 0 { 1.0 } else { 2.0 * cosine } / n as f64;
+                table.transform[j][k] = if k == 0 { 1.0 } else { 2.0 * cosine(k, j) } / n as f64;
             }
             table.at_end[j] = table.transform[j][..n].iter().sum();
         }
@@ -88,10 +89,10 @@ impl Table {
     }
 
     fn set_spacing(&mut self, n: usize) {
-        for j in 0..n {
-            let before = if j > 0 { self.z[j] - self.z[j - 1] } else { f64::INFINITY };
-            let after = if j + 1 < n { self.z[j + 1] - self.z[j] } else { f64::INFINITY };
-            self.spacing[j] = before.min(after);
+        self.spacing[0] = self.z[1] - self.z[0];
+        for j in 1..n {
+            self.spacing[j] = self.z[j] - self.z[j - 1];
+            self.spacing[j - 1] = self.spacing[j - 1].min(self.spacing[j]);
         }
     }
 
@@ -118,14 +119,7 @@ impl Table {
 
     /// Returns the table for one of the [`SIZES`].
     pub fn of(n: usize) -> &'static Self {
-        &TABLES[match n {
-            4 => 0,
-            8 => 1,
-            12 => 2,
-            16 => 3,
-            24 => 4,
-            _ => 5,
-        }]
+        &TABLES[SIZES.iter().position(|&size| size == n).unwrap_or(SIZES.len() - 1)]
     }
 
     /// Returns the share of each node in a sum of coefficients, each times a number.
@@ -134,16 +128,6 @@ impl Table {
             let row = self.transform[j][..N].iter().zip(numbers);
             row.fold(T::zero(), |sum, (&share, &number)| fma(number, T::of(share), sum))
         })
-    }
-
-    /// Returns the polynomial with these values at the nodes, at its left and at its right end.
-    pub fn at_ends<const N: usize, T: Real>(&self, values: &[T; N]) -> [T; 2] {
-        let [mut left, mut right] = [T::zero(); 2];
-        for j in 0..N {
-            left = fma(values[N - 1 - j], T::of(self.at_end[j]), left);
-            right = fma(values[j], T::of(self.at_end[j]), right);
-        }
-        [left, right]
     }
 
     /// Returns the integrals of the polynomial with these values at the nodes, from the first node
@@ -267,27 +251,19 @@ const ABREAST: usize = 4;
 /// Clenshaw's recurrence for `s = middle + reach t`. Each of its numbers is itself a series in t,
 /// one term longer than the one before: `t T_k = (T_{k+1} + T_{k-1})/2`.
 pub(crate) fn expand<T: Real>(coefficients: &[T], [left, right]: [T; 2]) -> Coeffs<T> {
-    let mut row = [T::zero(); MAX_SIZE];
-    expand_to(&mut row, coefficients, [left, right]);
-    row
-}
-
-/// Writes the result of [`expand`] into a given row.
-pub(crate) fn expand_to<T: Real>(row: &mut Coeffs<T>, coefficients: &[T], [left, right]: [T; 2]) {
     let half = T::of(0.5);
     let (middle, reach) = (half * (left + right), half * (right - left));
-    let [last, others @ ..] = coefficients else { return };
     // Coefficients from T_{-1} = T_1 on, all doubled, so that every term is treated alike.
     let [mut one, mut other] = [[T::zero(); MAX_SIZE + 2]; 2];
     let (mut b1, mut b2) = (&mut one, &mut other);
-    for (length, a) in others.iter().rev().enumerate() {
+    for (length, a) in coefficients[1..].iter().rev().enumerate() {
         step(b1, b2, length, [middle + middle, reach], *a);
         std::mem::swap(&mut b1, &mut b2);
     }
     // The last step has half the factors of the others.
-    step(b1, b2, others.len(), [middle, half * reach], *last);
-    row.copy_from_slice(&b2[1..=MAX_SIZE]);
-    row[0] *= half;
+    step(b1, b2, coefficients.len() - 1, [middle, half * reach], coefficients[0]);
+    b2[1] *= half;
+    std::array::from_fn(|k| b2[k + 1])
 }
 
 /// Replaces the last but one number of the recurrence by the next; the last has `length` terms.
@@ -312,7 +288,86 @@ fn step<T: Real>(
     b2[0] = b2[2];
 }
 
+/// Longest move of either end of a range, as a share of its half-width, that takes few terms.
+const MAX_MOVE: f64 = 2e-3;
+
+/// Most terms of a move.
+const MAX_TERMS: usize = 8;
+
+/// Replaces a series of N coefficients by the same polynomial on the range from `left - 1` to
+/// `right + 1`; `false` if that takes longer than to [expand] it.
+///
+/// The substitution `z -> z + δ + λ z` is `exp((α + β z) d/dz)` with `β = ln(1 + λ)`, `α = δ β/λ`.
+pub(crate) fn moved<const N: usize, T: Real>(row: &mut Coeffs<T>, [left, right]: [T; 2]) -> bool {
+    if left.abs().max(right.abs()) > T::of(MAX_MOVE) {
+        return false;
+    }
+    let half = T::of(0.5);
+    let [shift, wider] = [half * (left + right), half * (right - left)];
+    // ln(1 + λ)/λ
+    let share = (1..=8).rev().fold(T::zero(), |sum, k| T::count(k).recip() - wider * sum);
+    let size = |row: &Coeffs<T>| row[..N].iter().fold(T::zero(), |sum, a| sum + a.abs());
+    let (mut term, mut before, mut exact) = (*row, size(row), 0);
+    let (mut sum, nothing) = (term, T::of(0.125) * T::epsilon() * before);
+    for count in 1..=MAX_TERMS {
+        let slopes = derivative::<N, T>(&term);
+        let [along, beside] = [shift, half * wider].map(|by| share * by / T::count(count));
+        for k in 0..N {
+            term[k] = along * slopes[k + 1] + beside * (slopes[k] + slopes[k + 2]);
+            sum[k] += term[k];
+        }
+        term[0] *= half;
+        sum[0] -= term[0];
+        let here = size(&term);
+        // The terms fall at least as fast as from the last to this one. Each further term makes one
+        // more derivative exact.
+        exact += usize::from(here * here <= nothing * before);
+        if exact > T::DERIVATIVE_ORDER {
+            *row = sum;
+            return true;
+        }
+        before = here;
+    }
+    false
+}
+
+/// Returns the coefficients of the derivative of a series of N, from that of `T_{-1} = T_1` on, with
+/// that of `T_0` doubled: in a recurrence every term is then treated alike.
+#[inline(always)]
+pub(crate) fn derivative<const N: usize, T: Real>(row: &Coeffs<T>) -> [T; MAX_SIZE + 2] {
+    let mut slopes = [T::zero(); MAX_SIZE + 2];
+    for k in (1..N).rev() {
+        slopes[k] = slopes[k + 2] + T::of(2.0 * k as f64) * row[k];
+    }
+    slopes[0] = slopes[2];
+    slopes
+}
+
 /// Returns the smallest of the [`SIZES`] that holds n coefficients.
 pub(crate) fn size_for(n: usize) -> usize {
     SIZES.into_iter().find(|&size| size >= n).unwrap_or(MAX_SIZE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_moved_series_is_the_one_expanded_anew() {
+        // A steep slope and a root nearby: coefficients that fall slowly.
+        let function = |z: f64| 3.0 * z + (1.2 + z).sqrt();
+        let values: [f64; 32] = std::array::from_fn(|j| function(Table::of(32).z[j]));
+        let series: Coeffs<f64> = Table::of(32).coefficients(&values);
+        for ends in [[1e-3, -2e-3], [-2e-3, 2e-3], [1e-6, 2e-6], [2e-3, 2e-3], [0.0, 0.0]] {
+            let mut row = series;
+            assert!(moved::<32, f64>(&mut row, ends), "{ends:?}");
+            let anew = expand(&series, [ends[0] - 1.0, ends[1] + 1.0]);
+            for (k, (one, other)) in row.iter().zip(&anew).enumerate() {
+                assert!((one - other).abs() < 1e-14, "{ends:?} {k}: {one:e} {other:e}");
+            }
+        }
+        let mut row = series;
+        assert!(!moved::<32, f64>(&mut row, [0.01, 0.0]) && row == series);
+        assert!(!moved::<32, f64>(&mut row, [f64::NAN, 0.0]));
+    }
 }

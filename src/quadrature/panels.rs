@@ -264,7 +264,8 @@ impl<T: Real> PanelIntegrator<T> {
 
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
         self.panel_set.own_up_alone();
-        let m = edge_integrals::moments(&self.panel_set.panels, on, false, &mut self.over);
+        let from = self.moments.map(|(from, _)| from);
+        let m = edge_integrals::moments(&self.panel_set.panels, on, false, &mut self.over, from);
         (self.moments, self.is_prepared) = (Some((on, m)), false);
         m
     }
@@ -349,9 +350,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         if self.panel_set.turn(gap.tilt()) {
             self.moments = None;
         }
-        if let Some((last, m)) = &self.moments
-            && last.is_same(&on)
-        {
+        if let Some((_, m)) = self.moments.as_ref().filter(|(last, _)| last.is_same(&on)) {
             return Ok(*m);
         }
         let range = gap.range();
@@ -363,9 +362,13 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
             }
         }
         if self.decay.is_some() {
-            return Ok(edge_integrals::moments(&self.panel_set.panels, on, true, &mut self.over));
+            let panels = &self.panel_set.panels;
+            return Ok(edge_integrals::moments(panels, on, true, &mut self.over, None));
         }
-        self.panel_set.extend(gap, on)?;
+        if !self.panel_set.covers(on) {
+            self.moments = None;
+            self.panel_set.extend(gap, on)?;
+        }
         let m = self.remember(on);
         // An error small enough on a wide span may be too large for a narrow one in its middle.
         let is_wide = |have: Interval<T>| have.half_width() > T::of(1.25) * on.half_width();
@@ -475,6 +478,8 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
     fn reset(&mut self, same_bodies: bool) {
         self.panel_set.cost = Cost::default();
         self.panel_set.look_back();
+        // Each solve expands anew, so that no rounding adds up from one to the next.
+        self.over = None;
         self.several.reset(same_bodies);
         self.turn_to_one();
         if !same_bodies {

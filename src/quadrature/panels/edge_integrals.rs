@@ -9,7 +9,9 @@ use super::panel::{Panel, Series, spans, within};
 use super::reexpansion::{PanelAngles, reexpanded};
 use super::treecode::GroupMoments;
 use crate::numerics::CompensatedSum;
-use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, by_size, evaluate, size_for, values};
+use crate::numerics::chebyshev::{
+    MAX_SIZE, by_size, derivative, evaluate, moved, size_for, values,
+};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::{MomentDerivatives, Moments};
 use crate::{Interval, Real};
@@ -65,19 +67,31 @@ impl<T: Real> EdgeSums<T> {
     }
 }
 
+/// Largest number of coefficients that are expanded anew as fast as they are moved.
+const FEW: usize = 8;
+
 /// Returns the edge integrals over a contact that the panels cover, coarsely or in full. If one
-/// panel holds the whole contact, `over` becomes its [series](Panel::over).
+/// panel holds the whole contact, `over` becomes its [series](Panel::over). It may have been that
+/// of the same panel over the contact `from`, often one nearby.
 pub(super) fn moments<T: Real>(
     panels: &[Panel<T>],
     on: Interval<T>,
     coarse: bool,
     over: &mut Option<Series<T>>,
+    from: Option<Interval<T>>,
 ) -> Moments<T> {
     let within = within(panels, on);
     let mut sums = EdgeSums::new();
     if let [panel] = within {
-        let over = over.get_or_insert_with(|| ([T::zero(); MAX_SIZE], 0));
-        panel.over_to(over, on);
+        let over = over.get_or_insert(([T::zero(); MAX_SIZE], 0));
+        let is_moved = from.filter(|_| over.1 > FEW).is_some_and(|from| {
+            let share = T::one() / from.half_width();
+            let ends = [(on.left - from.left) * share, (on.right - from.right) * share];
+            by_size!(size_for(over.1), N => moved::<N, T>(&mut over.0, ends))
+        });
+        if !is_moved {
+            *over = panel.over(on);
+        }
         whole(&mut sums, over, panel.error, on);
     } else {
         *over = None;
@@ -89,18 +103,6 @@ pub(super) fn moments<T: Real>(
     sums.moments(on)
 }
 
-/// Returns the coefficients of the derivative by z.
-#[inline(always)]
-fn derivative<const N: usize, T: Real>(series: &Coeffs<T>) -> Coeffs<T> {
-    let mut slopes = [T::zero(); MAX_SIZE];
-    for k in (1..N).rev() {
-        let before = if k + 1 < N { slopes[k + 1] } else { T::zero() };
-        slopes[k - 1] = before + T::of(2.0 * k as f64) * series[k];
-    }
-    slopes[0] *= T::of(0.5);
-    slopes
-}
-
 /// Tells whether the slope rises over the contact, up to errors of size `allowed`: its derivative
 /// is not negative by its coefficients alone, and no jump goes down.
 pub(crate) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
@@ -109,13 +111,13 @@ pub(crate) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) ->
         let mut series = [T::zero(); MAX_SIZE];
         series[..panel.length].copy_from_slice(panel.coefficients());
         let slopes = by_size!(size_for(panel.length), N => derivative::<N, T>(&series));
-        let others = slopes[1..panel.length].iter().fold(T::zero(), |sum, a| sum + a.abs());
+        let others = slopes[2..=panel.length].iter().fold(T::zero(), |sum, a| sum + a.abs());
         let [left, right] = panel.at_ends();
         let error = panel.error.max(allowed);
         let jumps_down = before.is_some_and(|before| left < before - error);
         before = Some(right);
         // Markov's inequality bounds the derivative of such an error.
-        slopes[0] - others >= -error * T::count(panel.length) && !jumps_down
+        T::of(0.5) * slopes[1] - others >= -error * T::count(panel.length) && !jumps_down
     })
 }
 
@@ -123,9 +125,9 @@ pub(crate) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) ->
 fn whole<T: Real>(sums: &mut EdgeSums<T>, (series, length): &Series<T>, error: T, on: Interval<T>) {
     let half = T::of(0.5);
     let slopes = by_size!(size_for(*length), N => derivative::<N, T>(series));
-    let by_x = T::one() / on.half_width();
+    let by_x = half / on.half_width();
     let g = [series[0], half * series[1], half * series[2]];
-    sums.add(g, [slopes[0], half * slopes[1], half * (slopes[0] + half * slopes[2])], by_x);
+    sums.add(g, [slopes[1], slopes[2], half * (slopes[1] + slopes[3])], by_x);
     let squares = series[1..*length].iter().fold(T::zero(), |sum, &a| sum + a * a);
     sums.size = (series[0] * series[0] + half * squares).sqrt();
     sums.error = error;
@@ -155,12 +157,13 @@ fn by_cosines<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval
 #[inline(always)]
 fn span_of<const N: usize, T: Real>(
     sums: &mut EdgeSums<T>,
-    series: &Coeffs<T>,
+    series: &[T; MAX_SIZE],
     integrals: &Sines<T>,
     on: Interval<T>,
 ) {
     let (half, by_x) = (T::of(0.5), T::one() / on.half_width());
-    let slopes = derivative::<N, T>(series);
+    let mut slopes = derivative::<N, T>(series);
+    slopes[1] *= half;
     let (mut g, mut h) = ([T::zero(); 3], [T::zero(); 3]);
     for k in 0..N {
         // Times cos θ, and times cos 2θ.
@@ -170,9 +173,9 @@ fn span_of<const N: usize, T: Real>(
         let twice = half * (integrals[k.abs_diff(2)] + integrals[k + 2]);
         g[2] += series[k] * twice;
         if k + 1 < N {
-            h[0] += slopes[k] * integrals[k];
-            h[1] += slopes[k] * once;
-            h[2] += slopes[k] * half * (integrals[k] + twice);
+            h[0] += slopes[k + 1] * integrals[k];
+            h[1] += slopes[k + 1] * once;
+            h[2] += slopes[k + 1] * half * (integrals[k] + twice);
         }
     }
     sums.add(g, h, by_x);

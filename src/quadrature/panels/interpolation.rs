@@ -100,8 +100,10 @@ pub(super) fn missed_at_ends<const N: usize, T: Real>(
     if cache.direct || coarse || !(is_end(0) || is_end(1)) {
         return T::zero();
     }
-    let at_ends = Table::of(N).at_ends(slopes);
-    (0..2)
-        .filter(|&i| is_end(i))
-        .fold(T::zero(), |missed, i| missed.max((at_ends[i] - known[i].slope).abs()))
+    let shares = &Table::of(N).at_end[..N];
+    let missed = |i: usize| {
+        let slope = |j: usize| slopes[if i == 0 { N - 1 - j } else { j }];
+        (0..N).fold(-known[i].slope, |sum, j| fma(slope(j), T::of(shares[j]), sum)).abs()
+    };
+    (0..2).filter(|&i| is_end(i)).map(missed).fold(T::zero(), T::max)
 }

@@ -1,7 +1,7 @@
 //! One polynomial piece of the slope, and the verdict on its coefficients.
 
 use crate::numerics::chebyshev::{
-    Coeffs, MAX_SIZE, SIZES, Table, expand_to, primitive, size_for, value_at, values,
+    Coeffs, MAX_SIZE, SIZES, Table, expand, primitive, size_for, value_at, values,
 };
 use crate::real::same;
 use crate::{Interval, Real};
@@ -120,21 +120,13 @@ impl<T: Real> Panel<T> {
     }
 
     /// Returns the slope as `Σ c_k T_k(z)` over a contact `c + L z`.
+    #[inline(always)]
     pub fn over(&self, on: Interval<T>) -> Series<T> {
-        let mut series = ([T::zero(); MAX_SIZE], 0);
-        self.over_to(&mut series, on);
-        series
-    }
-
-    /// Writes the slope over a contact into a given series, as [`over`](Self::over) returns it.
-    pub fn over_to(&self, (series, terms): &mut Series<T>, on: Interval<T>) {
         if same(self.x[0], on.left) && same(self.x[1], on.right) {
-            (*series, *terms) = (self.series, self.length);
-            return;
+            return (self.series, self.length);
         }
         let ends = [self.local(on.left), self.local(on.right)];
-        expand_to(series, self.coefficients(), ends);
-        *terms = size_for(self.length);
+        (expand(self.coefficients(), ends), size_for(self.length))
     }
 }
 

@@ -154,9 +154,10 @@ impl<T: Real> Rises<T> {
     /// Refuses heights that contradict the slopes.
     pub fn compare(self) -> Result<(), ContactError<T>> {
         let Self { between, by_heights, by_slopes, highest, open } = self;
-        let rounding = T::of(128.0) * T::epsilon() * highest;
-        let share = T::epsilon().cbrt() * (by_heights.abs() + by_slopes.abs());
-        if (by_heights - by_slopes).abs() <= rounding + share + open {
+        let apart = (by_heights - by_slopes).abs() - T::of(128.0) * T::epsilon() * highest;
+        let share = || T::epsilon().cbrt() * (by_heights.abs() + by_slopes.abs());
+        // Most need no root.
+        if apart <= open || apart <= open + share() {
             return Ok(());
         }
         Err(InputError::InconsistentHeights { between, by_heights, by_slopes }.into())

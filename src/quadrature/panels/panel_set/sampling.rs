@@ -223,8 +223,8 @@ impl<T: Real> PanelSet<T> {
         let nodes = offsets.map(|offset| (centre + offset).max(first).min(last));
         let near = T::of(MAX_OFFSETS[usize::from(self.coarse)]) * reach;
         let room: [T; N] = std::array::from_fn(|i| near * T::of(table.spacing[i]));
-        let noise = self.noise.map_or([zero; 2], |noise| noise.map(|noise| noise.x));
-        let rooms = noise.map(|noise| room.map(|room| room.max(noise)));
+        let beside = |noise: Noise<T>| room.map(|room| room.max(noise.x));
+        let rooms = self.noise.map_or([room; 2], |noise| noise.map(beside));
         let [lower, upper] = self.slopes_at(gap, x, &offsets, &nodes, &rooms)?;
         self.cost.samples += N;
         let mut slopes = [zero; N];

@@ -182,7 +182,7 @@ impl<T: Real> OneOfSeveral<T> {
             }
         }
         let mut over = None;
-        self.moments = edge_integrals::moments(&self.panels, on, false, &mut over);
+        self.moments = edge_integrals::moments(&self.panels, on, false, &mut over, None);
         self.series = over.unwrap_or_else(|| {
             self.far.set(&self.panels, on, Seen::Outside);
             self.far.cosines()
