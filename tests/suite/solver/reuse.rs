@@ -381,6 +381,22 @@ fn a_load_that_rises_slowly() {
     }
 }
 
+/// The rounding of one solve does not add to that of the next.
+#[test]
+fn a_hundred_thousand_loads_that_hardly_differ() {
+    let body = Ellipse::circle(1.0f64, [-0.9, 0.9]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let (mut solver, mut load) = (Solver::new(), 0.1);
+    for _ in 0..100_000 {
+        load *= 1.000_001;
+        solver.solve(&contact, Control::Load(load)).unwrap();
+    }
+    let load = Control::Load(load);
+    let [warm, cold] = [solver.solve(&contact, load), contact.solve(load)]
+        .map(|found| Result::of(&found.unwrap()));
+    warm.assert_close(&cold, 1e-15, "after all");
+}
+
 /// Body that is x²/2 or x²/8, depending on its flag.
 struct Turncoat(AtomicBool);
 

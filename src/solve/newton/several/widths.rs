@@ -15,25 +15,18 @@ const CLOSED_WIDTH: f64 = 64.0;
 
 impl<T: Real> NewtonSeveral<T> {
     /// Shortens the moves of the limits: two neighbours leave at least a share of the width between
-    /// them, and a limit moves outward by no more than the width of its contact. Lists the widths
-    /// that would have become too narrow.
+    /// them. Lists the widths that would have become too narrow.
     pub(super) fn shorten(&mut self) {
         self.widths.clear();
-        let half = T::of(0.5);
+        let last = self.moves.len() - 1;
         for i in self.free() {
-            let (contact, is_left) = (i - i % 2, i.is_multiple_of(2));
-            let gap = if is_left { i.checked_sub(1) } else { Some(i) };
-            let gap = gap.filter(|&gap| gap + 1 < self.moves.len());
-            let most = |i: Width| half * (T::one() - self.least(i)) * self.width(i);
-            let is_inward = (self.moves[i] > T::zero()) == is_left;
-            let (narrowed, most) = match gap {
-                _ if is_inward => (Some(contact), most(contact)),
-                Some(gap) if most(gap) < self.width(contact) => (Some(gap), most(gap)),
-                _ => (None, self.width(contact)),
-            };
+            let is_left = self.moves[i] < T::zero();
+            let width = if is_left { i.checked_sub(1) } else { Some(i).filter(|&i| i < last) };
+            let Some(width) = width else { continue };
+            let most = T::of(0.5) * (T::one() - self.least(width)) * self.width(width);
             if self.moves[i].abs() > most {
                 self.moves[i] = most * self.moves[i].signum();
-                self.widths.extend(narrowed);
+                self.widths.push(width);
             }
         }
     }
