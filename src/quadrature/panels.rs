@@ -83,9 +83,8 @@ pub(crate) fn spans<T: Real>(
     integrator: &dyn Integrator<T>,
     contact: usize,
 ) -> Vec<(Interval<T>, usize)> {
-    let Some(integrator) = integrator.panels() else { return Vec::new() };
     let span = |(panel, [left, right]): (&Panel<T>, [T; 2])| (Interval { left, right }, panel.n);
-    integrator.spans(contact).map(span).collect()
+    integrator.panels().map_or(Vec::new(), |own| own.spans(contact).map(span).collect())
 }
 
 /// Shows the panels of an integrator prepared for a contact. For an integrator without panels,
@@ -356,10 +355,9 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         let range = gap.range();
         let rounding = T::of(8.0) * T::epsilon() * range[0].abs().max(range[1].abs());
         let rounding = rounding.min(T::epsilon().sqrt() * on.half_width());
-        for x in [on.left, on.right] {
-            if !(x >= range[0] - rounding && x <= range[1] + rounding) {
-                return Err(SolveError::OutsideBodies { x, range }.into());
-            }
+        let is_inside = |&x: &T| x >= range[0] - rounding && x <= range[1] + rounding;
+        if let Some(x) = [on.left, on.right].into_iter().find(|x| !is_inside(x)) {
+            return Err(SolveError::OutsideBodies { x, range }.into());
         }
         if self.decay.is_some() {
             let panels = &self.panel_set.panels;
