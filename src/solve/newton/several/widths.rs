@@ -15,18 +15,22 @@ const CLOSED_WIDTH: f64 = 64.0;
 
 impl<T: Real> NewtonSeveral<T> {
     /// Shortens the moves of the limits: two neighbours leave at least a share of the width between
-    /// them. Lists the widths that would have become too narrow.
+    /// them, and a limit moves outward by no more than the width of its contact. Lists the widths
+    /// that would have become too narrow.
     pub(super) fn shorten(&mut self) {
         self.widths.clear();
-        let last = self.moves.len() - 1;
+        let (half, last) = (T::of(0.5), self.moves.len() - 1);
         for i in self.free() {
-            let is_left = self.moves[i] < T::zero();
-            let width = if is_left { i.checked_sub(1) } else { Some(i).filter(|&i| i < last) };
-            let Some(width) = width else { continue };
-            let most = T::of(0.5) * (T::one() - self.least(width)) * self.width(width);
+            let (contact, is_left) = (i - i % 2, self.moves[i] < T::zero());
+            let beside = if is_left { i.checked_sub(1) } else { Some(i).filter(|&i| i < last) };
+            let most = |i: Width| half * (T::one() - self.least(i)) * self.width(i);
+            let (narrowed, most) = match beside {
+                Some(i) if i == contact || most(i) < self.width(contact) => (beside, most(i)),
+                _ => (None, self.width(contact)),
+            };
             if self.moves[i].abs() > most {
                 self.moves[i] = most * self.moves[i].signum();
-                self.widths.push(width);
+                self.widths.extend(narrowed);
             }
         }
     }
