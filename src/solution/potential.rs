@@ -16,7 +16,8 @@ use crate::quadrature::panels::{inverse, length, sqrt};
 use crate::{Ends, Interval, Real};
 use nalgebra::Complex;
 
-/// Largest |u| at which the terms left out of a series of several panels, from u²⁴ on, are rounding.
+/// Largest |u| at which the terms left out of a series of several panels, from u²⁴ on, are
+/// rounding.
 const LARGEST: f64 = 0.2;
 
 /// Pressure on one contact, as seen from below.

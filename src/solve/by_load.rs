@@ -29,7 +29,8 @@ use crate::{
 const MAX_LOADS: usize = 100;
 
 /// First load for an approach, as a share of `κ δ`: a third is right twenty half-widths above the
-/// references, and less further off. The samples of a contact serve a narrower one, not a wider one.
+/// references, and less further off. The samples of a contact serve a narrower one, but not a
+/// wider one.
 const FIRST_LOAD: f64 = 0.4;
 
 /// Largest factor between the loads of two trials.

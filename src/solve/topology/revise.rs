@@ -20,8 +20,8 @@ use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
 use crate::{ContactError, Edge, Ends, Interval, Real, Side, SolveError};
 
-/// Largest uncertainty of heights, as a share of F/κ, to show by themselves where the bodies touch:
-/// with 400 contacts a twelfth of the load of one.
+/// Largest uncertainty of heights, as a share of F/κ, to show by themselves where the bodies
+/// touch: with 400 contacts a twelfth of the load of one.
 const MAX_UNCERTAINTY: f64 = 2e-4;
 
 /// Sets of contacts tried before the search is given up.

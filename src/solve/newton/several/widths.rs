@@ -35,8 +35,8 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Returns the least share of a width that a step leaves. A width that was cut may
-    /// shrink faster.
+    /// Returns the least share of a width that a step leaves. A width that was cut may shrink
+    /// faster.
     fn least(&self, i: Width) -> T {
         T::of(LEAST_LEFT.powi(self.cut[i] + 1))
     }
