@@ -331,8 +331,8 @@ pub(crate) fn moved<const N: usize, T: Real>(row: &mut Coeffs<T>, [left, right]:
     false
 }
 
-/// Returns the coefficients of the derivative of a series of N, from that of `T_{-1} = T_1` on,
-/// with that of `T_0` doubled: in a recurrence every term is then treated alike.
+/// Returns the coefficients of the derivative of a series of N, from `T_{-1} = T_1` on. The
+/// coefficient of `T_0` is doubled: in a recurrence every term is then treated alike.
 #[inline(always)]
 pub(crate) fn derivative<const N: usize, T: Real>(row: &Coeffs<T>) -> [T; MAX_SIZE + 2] {
     let mut slopes = [T::zero(); MAX_SIZE + 2];

@@ -71,8 +71,8 @@ impl<T: Real> EdgeSums<T> {
 const FEW: usize = 8;
 
 /// Returns the edge integrals over a contact that the panels cover, coarsely or in full. If one
-/// panel holds the whole contact, `over` becomes its [series](Panel::over). It may have been that
-/// of the same panel over the contact `from`, often one nearby.
+/// panel holds the whole contact, `over` becomes its [series](Panel::over). If `from` is given, it
+/// is the series of the same panel over that contact, often one nearby.
 pub(super) fn moments<T: Real>(
     panels: &[Panel<T>],
     on: Interval<T>,

@@ -2,8 +2,8 @@
 //!
 //! The equations and their Jacobian are those of the quadrature: a step moves each limit outward if
 //! the pressure on the contacts at hand would have a positive singularity there, and inward if a
-//! negative one. So a gap that is none closes, and a contact that is none vanishes, whatever the
-//! other limits do. A step leaves a third of a width. If a width is cut so step after step, the gap
+//! negative one. So a false gap closes, and a false contact vanishes, whatever the other limits
+//! do. A step leaves a third of a width. If a width is cut so step after step, the gap
 //! closes, or the contact does not exist; and a gap closes that the heights of the bodies no longer
 //! resolve. The caller starts again without all of these.
 

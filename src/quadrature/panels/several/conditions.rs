@@ -28,8 +28,8 @@ pub(crate) struct System<T> {
     pub load_row: usize,
     /// Limits, from left to right.
     pub(super) limits: Vec<T>,
-    /// V at the limits, with the sign that it has if the pressure next to them is positive, and V
-    /// at the zeros of p.
+    /// V at the limits, signed as where the pressure next to them is positive, and V at the zeros
+    /// of p.
     pub(super) at_ends: Vec<T>,
     at_zeros: Vec<T>,
     /// Parts of V by the contacts far from each gap.
@@ -257,18 +257,17 @@ impl<T: Real> Several<T> {
         self.corners() == Ends::both(false)
     }
 
-    /// Returns `(1/π) ∫ w p (x - x₀)ⁱ g dx` for i from 0 to 2.
-    fn powers(&self, about: T) -> [T; 3] {
+    /// Returns `(1/π) ∫ w p (x - x₀)ⁱ g dx` for i = 1 and 2.
+    fn powers(&self, about: T) -> [T; 2] {
         let (half, two) = (T::of(0.5), T::of(2.0));
-        let mut powers = [T::zero(); 3];
+        let mut powers = [T::zero(); 2];
         for OneOfSeveral { on, moments, .. } in self.parts() {
             let (away, half_width) = (on.centre() - about, on.half_width());
             let arm = half_width * moments.m1;
             let second = moments.m2.unwrap_or(T::zero());
             let square = half * half_width * half_width * (moments.m0 + second);
-            powers[0] += moments.m0;
-            powers[1] += away * moments.m0 + arm;
-            powers[2] += away * (away * moments.m0 + two * arm) + square;
+            powers[0] += away * moments.m0 + arm;
+            powers[1] += away * (away * moments.m0 + two * arm) + square;
         }
         powers
     }
@@ -331,8 +330,8 @@ impl<T: Real> Several<T> {
         let [first, second] = self.afar(at);
         let reach = (hull.left - at).abs().max((hull.right - at).abs());
         let (reach, borne) = match no_corners {
-            true => (reach * reach, powers[2]),
-            false => (reach, powers[1]),
+            true => (reach * reach, powers[1]),
+            false => (reach, powers[0]),
         };
         let error = self.parts().iter().fold(zero, |sum, part| sum + part.moments.error) * reach;
         system.add(borne - first * load, error, self.free(), |known, i| {
