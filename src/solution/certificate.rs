@@ -117,7 +117,7 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     }
     let (mut several, mut system) = (Several::sampled(rows), System::new());
     let (load, share) = (found.load / kappa, found.zero_tolerance());
-    several.set(gap, &contacts, free.map(|free| !free), found.ends)?;
+    several.set(gap, &contacts, free.map(|free| !free), found.ends, false)?;
     several.system(load, &mut system);
     let cost = several.cost;
     for (i, on) in contacts.iter().enumerate() {
@@ -138,7 +138,7 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
 
     let is_held = Ends::from_fn(|side| adhesive[side] || at_corner[side]);
     if is_held != several.corners() {
-        several.set(gap, &contacts, is_held, found.ends)?;
+        several.set(gap, &contacts, is_held, found.ends, false)?;
         several.system(load, &mut system);
     }
     several.bear(load);
@@ -310,7 +310,7 @@ mod tests {
         for _ in 0..30 {
             let [one, two, three, four] = limits;
             let on = [Interval { left: one, right: two }, Interval { left: three, right: four }];
-            several.set(&gap, &on, corners, ends)?;
+            several.set(&gap, &on, corners, ends, false)?;
             several.system(LOAD / kappa, &mut system);
             assert!(linear.factor(&system.jacobian, 4));
             linear.solve(&system.residual, &mut steps);

@@ -74,7 +74,10 @@ impl<T: Real> NearFarSum<T> {
             self.parts.push(FarPanel::new(clip(panel, x), on, seen, &mut self.nodes));
         }
         self.groups.clear();
-        group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes);
+        let is_far = |[from, to]: [T; 2]| {
+            seen == Seen::Outside && from >= on.left && to <= on.right
+        };
+        group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes, &is_far);
     }
 
     /// Returns the cosine series of all panels, from the group of all; empty without groups.
@@ -245,6 +248,7 @@ impl<T: Real> FarPanel<T> {
         let farthest = panel.local(on.left).abs().max(panel.local(on.right).abs());
         let most = if seen == Seen::Below { T::of(REACH_IN_PLANE) } else { farthest };
         let reach = reach(panel.coefficients(), most);
+        let reach = if reach >= farthest { reach } else { reach.min(T::of(3.0)) };
         let is_near = reach >= farthest && seen == Seen::Inside;
         // From outside no point comes closer than the ends of the contact.
         let closest = (-panel.local(on.left)).min(panel.local(on.right));

@@ -58,8 +58,12 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 pub(crate) use conditions::System;
 pub(crate) use load_response::LoadResponse;
 use one_of_several::OneOfSeveral;
+pub(crate) use one_of_several::TRIAL_TOLERANCE;
 use std::ops::Range;
 use weight::Weight;
+
+/// Least width of a gap, in half-widths of the contact next to it, for a trial.
+const LEAST_TRIAL_GAP: f64 = 0.01;
 
 /// Several contacts on their panels.
 #[derive(Clone)]
@@ -108,6 +112,7 @@ impl<T: Real> Several<T> {
         on: &[Interval<T>],
         corners: Ends<bool>,
         ends: Ends<T>,
+        is_trial: bool,
     ) -> Result<(), ContactError<T>> {
         self.weight.set(on, corners);
         if on.len() != self.count {
@@ -126,9 +131,19 @@ impl<T: Real> Several<T> {
             let sampled = part.sample(gap, on[i], [from, to]);
             self.cost += std::mem::take(&mut part.panel_set.cost);
             sampled?;
-            part.set(|x| self.weight.on_contact(i, x));
+            // A gap narrower than a trial's outermost node is far from the limit would not count.
+            let apart = on.windows(2).skip(i.saturating_sub(1)).take(1 + usize::from(i > 0));
+            let is_wide = |gap: &[Interval<T>]| {
+                gap[1].left - gap[0].right > T::of(LEAST_TRIAL_GAP) * on[i].half_width()
+            };
+            part.set(|x| self.weight.on_contact(i, x), is_trial && apart.into_iter().all(is_wide));
         }
         Ok(())
+    }
+
+    /// Tells whether any contact is on a panel for a trial only.
+    pub fn is_trial(&self) -> bool {
+        self.parts().iter().any(|part| part.is_trial)
     }
 
     /// Samples between the nodes of all contacts; tells whether panels have missed a feature.

@@ -22,7 +22,7 @@ use std::ops::Range;
 const POINTS: usize = 24;
 
 /// Largest number of panels in a group that is not divided.
-const MAX_UNDIVIDED: usize = 8;
+const MAX_UNDIVIDED: usize = 3;
 
 /// Group of neighbouring panels.
 #[derive(Clone)]
@@ -43,12 +43,13 @@ pub(super) struct Group<T> {
 }
 
 /// Groups parts, given the nodes `[t - t_left, g dθ]` of Gauss's rule on each; every group is
-/// followed by its two halves.
+/// followed by its two halves. A group is not divided if all places to be seen are far from it.
 pub(super) fn group<T: Real>(
     groups: &mut Vec<Group<T>>,
     parts: &[FarPanel<T>],
     numbers: Range<usize>,
     nodes: &[[T; 2]],
+    is_far: &impl Fn([T; 2]) -> bool,
 ) {
     let within = &parts[numbers.clone()];
     let [Some(first), Some(last)] = [within.first(), within.last()] else { return };
@@ -65,7 +66,7 @@ pub(super) fn group<T: Real>(
     let (parts_of, next) = (numbers.clone(), number + 1);
     groups.push(Group { parts: parts_of, near, left, half, weights, error, next });
     let mut sums = GroupMoments::new(left, half);
-    if numbers.len() <= MAX_UNDIVIDED {
+    if numbers.len() <= MAX_UNDIVIDED || is_far(near) {
         for part in within {
             for nodes in nodes[part.nodes.clone()].as_chunks().0 {
                 sums.add(part.panel.x[0], nodes);
@@ -75,7 +76,7 @@ pub(super) fn group<T: Real>(
         let middle = numbers.start + numbers.len() / 2;
         for numbers in [numbers.start..middle, middle..numbers.end] {
             let half = groups.len();
-            group(groups, parts, numbers, nodes);
+            group(groups, parts, numbers, nodes, is_far);
             let half = &groups[half];
             let points = half.points();
             let nodes: [_; POINTS] = std::array::from_fn(|m| [points[m], half.weights[m]]);

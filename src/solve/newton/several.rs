@@ -13,7 +13,7 @@ use super::super::single_contact::MAX_DOUBT;
 use super::{Progress, Stop};
 use crate::gap::Gap;
 use crate::numerics::LinearSystem;
-use crate::quadrature::panels::{Several, System};
+use crate::quadrature::panels::{Several, System, TRIAL_TOLERANCE};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
 use std::ops::Range;
@@ -79,6 +79,8 @@ pub(in super::super) struct NewtonSeveral<T> {
     /// Flags: the outermost limit on this side stays in place.
     held: Ends<bool>,
     progress: Progress<T>,
+    /// Flag: the limits are not yet worth all panels.
+    is_trial: bool,
     /// Number of steps in a row in which each width was cut, and an end was passed.
     cut: Vec<i32>,
     passed: Option<(Side, i32)>,
@@ -111,6 +113,7 @@ impl<T: Real> NewtonSeveral<T> {
             errors,
             held,
             progress,
+            is_trial: true,
             cut,
             passed,
             widths,
@@ -140,7 +143,7 @@ impl<T: Real> NewtonSeveral<T> {
         if let Some(side) = conditions.end() {
             self.held[side] = true;
         }
-        (self.progress, self.passed) = (Progress::new(), None);
+        (self.progress, self.passed, self.is_trial) = (Progress::new(), None, true);
         self.cut.clear();
         self.cut.resize(2 * self.on.len() - 1, 0);
         let mut turned = conditions.gap.tilted(self.tilt);
@@ -155,9 +158,19 @@ impl<T: Real> NewtonSeveral<T> {
             self.turn(&mut turned, conditions.besides);
             let size = self.size();
             match self.limit(conditions) {
-                Ok(true) => continue,
+                // Whether a contact or a gap exists is for all panels to say.
+                Ok(true) => {
+                    self.is_trial = false;
+                    continue;
+                }
                 Ok(false) => {}
                 Err(stop) => return Ok(Err(stop)),
+            }
+            if several.is_trial() {
+                let is_stalled = self.progress.judge([size, T::zero()]).is_stalled;
+                self.is_trial = size > T::of(TRIAL_TOLERANCE).sqrt() && !is_stalled;
+                self.progress.note([size, T::zero()]);
+                continue;
             }
             if self.accept(size) {
                 if self.is_closed() {
@@ -170,7 +183,7 @@ impl<T: Real> NewtonSeveral<T> {
                     self.turn(&mut turned, conditions.besides);
                     self.advance();
                 }
-                several.set(&turned, &self.on, conditions.corners, conditions.ends)?;
+                several.set(&turned, &self.on, conditions.corners, conditions.ends, false)?;
                 several.press();
                 return Ok(Ok(()));
             }
@@ -189,7 +202,8 @@ impl<T: Real> NewtonSeveral<T> {
         if self.is_closed() {
             return Ok(Err(Stop::Gone));
         }
-        several.set(turned, &self.on, conditions.corners, conditions.ends)?;
+        let Conditions { corners, ends, .. } = *conditions;
+        several.set(turned, &self.on, corners, ends, self.is_trial)?;
         several.system(self.load, &mut self.system);
         match conditions.besides {
             Some(Besides::Tilt(at)) => several.turning(conditions.load, at, &mut self.system),

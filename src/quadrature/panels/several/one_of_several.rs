@@ -32,6 +32,14 @@ const LEAST_WIDTH: f64 = 0.4;
 /// panel next to a corner, as narrow as a share s of the contact, costs eps/√s in the limits.
 const LEAST_SPAN: f64 = 1e-3;
 
+/// Largest share that a series over a whole contact may leave open in a trial: the limits are then
+/// off by about as much, and Newton's method squares that.
+pub(crate) const TRIAL_TOLERANCE: f64 = 1e-4;
+
+/// Least number of panels for which a series over the whole contact is tried: fewer cost less than
+/// the step that it may take more.
+const LEAST_SAVED: usize = 8;
+
 /// Distance from a contact, in half-widths, from which on the cosine series of its panels is exact
 /// to rounding: its error there is u²⁴.
 const FAR_DISTANCE: f64 = 2.0;
@@ -45,6 +53,8 @@ pub(super) struct OneOfSeveral<T> {
     height: Option<[T; 2]>,
     /// Panels of `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
     panels: Vec<Panel<T>>,
+    /// Flag: they are one panel for a trial.
+    pub is_trial: bool,
     /// Spans still to be resolved, each with the number of its halvings.
     waiting: Vec<([T; 2], usize)>,
     /// Bound on |H|.
@@ -67,6 +77,7 @@ impl<T: Real> OneOfSeveral<T> {
             panel_set: PanelSet::new(tolerance),
             height: None,
             panels: Vec::new(),
+            is_trial: false,
             waiting: Vec::new(),
             size: zero,
             transform: HilbertTransform::new(),
@@ -155,18 +166,54 @@ impl<T: Real> OneOfSeveral<T> {
         height.abs() + self.height.map_or(T::zero(), |[_, height]| height.abs())
     }
 
-    /// Multiplies the slope by a weight, and prepares for the conditions on the limits.
-    pub fn set(&mut self, weight: impl Fn(T) -> T) {
+    /// Multiplies the slope by a weight, and prepares for the conditions on the limits. A trial is
+    /// done with one panel if that is almost enough.
+    pub fn set(&mut self, weight: impl Fn(T) -> T, is_trial: bool) {
         let on = self.on;
-        let sampled = within(&self.panel_set.panels, on);
         self.panels.clear();
+        self.is_trial = is_trial && self.on_one_panel(&weight);
+        if !self.is_trial {
+            self.on_panels_of_slope(&weight);
+        }
+        let mut over = None;
+        self.moments = edge_integrals::moments(&self.panels, on, false, &mut over, None);
+        self.series = over.unwrap_or_else(|| {
+            self.far.set(&self.panels, on, Seen::Outside);
+            self.far.cosines()
+        });
+    }
+
+    /// Multiplies the slope by a weight on one panel; tells whether that is almost enough.
+    fn on_one_panel(&mut self, weight: &impl Fn(T) -> T) -> bool {
+        let sampled = within(&self.panel_set.panels, self.on);
+        if sampled.len() < LEAST_SAVED {
+            return false;
+        }
+        let mut product = Panel::new([self.on.left, self.on.right]);
+        let slope = |x: T| {
+            let panel = sampled.partition_point(|panel| panel.x[1] < x).min(sampled.len() - 1);
+            sampled[panel].value(x)
+        };
+        let is_enough = [16, MAX_SIZE].into_iter().any(|n| {
+            let seen = sample(&mut product, n, &slope, weight);
+            seen.last <= T::of(TRIAL_TOLERANCE) * seen.all
+        });
+        if is_enough {
+            self.panels.push(product);
+        }
+        is_enough
+    }
+
+    /// Multiplies the slope by a weight on the panels of the slope, halved as often as needed.
+    fn on_panels_of_slope(&mut self, weight: &impl Fn(T) -> T) {
+        let sampled = within(&self.panel_set.panels, self.on);
         let tolerance = self.panel_set.tolerance;
         self.size = T::zero();
-        for (panel, x) in spans(sampled, on) {
+        for (panel, x) in spans(sampled, self.on) {
             self.waiting.clear();
             self.waiting.push((x, 0));
             while let Some((x, halved)) = self.waiting.pop() {
-                let (product, resolved, moved) = multiply(panel, x, &weight, tolerance);
+                let (product, resolved, moved) = multiply(panel, x, weight, tolerance);
                 let resolved = resolved && (moved || halved >= DERIVATIVE_HALVES);
                 let [from, to] = x;
                 let middle = T::of(0.5) * (from + to);
@@ -181,12 +228,6 @@ impl<T: Real> OneOfSeveral<T> {
                 self.panels.push(product);
             }
         }
-        let mut over = None;
-        self.moments = edge_integrals::moments(&self.panels, on, false, &mut over, None);
-        self.series = over.unwrap_or_else(|| {
-            self.far.set(&self.panels, on, Seen::Outside);
-            self.far.cosines()
-        });
     }
 
     /// Prepares for pressures in the contact.
@@ -260,27 +301,9 @@ fn multiply<T: Real>(
     let least = size_for((panel.length + 4).min(MAX_SIZE)).max(8);
     let (mut product, mut resolved, mut moved) = (Panel::new(x), false, false);
     for n in SIZES.into_iter().filter(|&n| n >= least) {
-        let table = Table::of(n);
-        let (reach, mut largest) = (half * (x[1] - x[0]), T::zero());
-        let mut values = [T::zero(); MAX_SIZE];
-        for (value, &z) in values[..n].iter_mut().zip(&table.z) {
-            // From the nearer end, where the weight may be steep.
-            let place =
-                if z < 0.0 { x[0] + reach * T::of(1.0 + z) } else { x[1] - reach * T::of(1.0 - z) };
-            let factor = weight(place);
-            largest = largest.max(factor.abs());
-            *value = factor * panel.value(place);
-        }
-        by_size!(n, N => {
-            let mut row = [T::zero(); N];
-            row.copy_from_slice(&values[..N]);
-            product.series[..N].copy_from_slice(&table.coefficients(&row));
-        });
-        product.count(n);
-        let size = |terms: &[T]| terms.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-        let [all, last] = [size(&product.series[..n]), size(&product.series[n - 2..n])];
+        let Sampled { all, last, largest, bend } =
+            sample(&mut product, n, &|x| panel.value(x), weight);
         // The rounding of x counts where the weight is steep.
-        let bend = (values[n - 1] - values[0]).abs() / (x[1] - x[0]);
         let noise = panel.error * largest + T::epsilon() * x[0].abs().max(x[1].abs()) * bend;
         product.error = noise + last;
         // Halving does not mend values that are not finite.
@@ -300,6 +323,46 @@ fn multiply<T: Real>(
         }
     }
     (product, resolved, moved)
+}
+
+/// Sizes on the panel of a product.
+struct Sampled<T> {
+    /// Largest coefficient, and the largest of the last two.
+    all: T,
+    last: T,
+    /// Largest weight.
+    largest: T,
+    /// Mean slope.
+    bend: T,
+}
+
+/// Samples the product of a slope and a weight at n nodes of a panel.
+fn sample<T: Real>(
+    product: &mut Panel<T>,
+    n: usize,
+    slope: &impl Fn(T) -> T,
+    weight: &impl Fn(T) -> T,
+) -> Sampled<T> {
+    let (table, x) = (Table::of(n), product.x);
+    let (reach, mut largest) = (product.half(), T::zero());
+    let mut values = [T::zero(); MAX_SIZE];
+    for (value, &z) in values[..n].iter_mut().zip(&table.z) {
+        // From the nearer end, where the weight may be steep.
+        let place =
+            if z < 0.0 { x[0] + reach * T::of(1.0 + z) } else { x[1] - reach * T::of(1.0 - z) };
+        let factor = weight(place);
+        largest = largest.max(factor.abs());
+        *value = factor * slope(place);
+    }
+    by_size!(n, N => {
+        let mut row = [T::zero(); N];
+        row.copy_from_slice(&values[..N]);
+        product.series[..N].copy_from_slice(&table.coefficients(&row));
+    });
+    product.count(n);
+    let size = |terms: &[T]| terms.iter().fold(T::zero(), |max, a| max.max(a.abs()));
+    let [all, last] = [size(&product.series[..n]), size(&product.series[n - 2..n])];
+    Sampled { all, last, largest, bend: (values[n - 1] - values[0]).abs() / (x[1] - x[0]) }
 }
 
 /// Returns the rule for one span of a gap.
