@@ -34,7 +34,7 @@ const LEAST_SPAN: f64 = 1e-3;
 
 /// Largest share that a series over a whole contact may leave open in a trial: the limits are then
 /// off by about as much, and Newton's method squares that.
-pub(crate) const TRIAL_TOLERANCE: f64 = 1e-4;
+pub(crate) const TRIAL_TOLERANCE: f64 = 1e-5;
 
 /// Least number of panels for which a series over the whole contact is tried: fewer cost less than
 /// the step that it may take more.
@@ -194,10 +194,8 @@ impl<T: Real> OneOfSeveral<T> {
             let panel = sampled.partition_point(|panel| panel.x[1] < x).min(sampled.len() - 1);
             sampled[panel].value(x)
         };
-        let is_enough = [16, MAX_SIZE].into_iter().any(|n| {
-            let seen = sample(&mut product, n, &slope, weight);
-            seen.last <= T::of(TRIAL_TOLERANCE) * seen.all
-        });
+        let seen = sample(&mut product, MAX_SIZE, &slope, weight);
+        let is_enough = seen.last <= T::of(TRIAL_TOLERANCE) * seen.all;
         if is_enough {
             self.panels.push(product);
         }
