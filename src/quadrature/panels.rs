@@ -37,7 +37,7 @@ pub(crate) use panel::Panel;
 use panel::Series;
 use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{MAX_MISSED, PanelSet, Rises};
-pub(crate) use several::{LoadResponse, Several, System, TRIAL_TOLERANCE};
+pub(crate) use several::{LoadResponse, Several, System};
 /// Tells whether the slope of the gap rises all over the contact last prepared, up to a share of
 /// the largest slope; `None` for other integrators, and for several contacts.
 pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option<bool> {

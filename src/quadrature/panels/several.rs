@@ -58,7 +58,6 @@ use crate::{ContactError, Ends, Interval, Real, Side};
 pub(crate) use conditions::System;
 pub(crate) use load_response::LoadResponse;
 use one_of_several::OneOfSeveral;
-pub(crate) use one_of_several::TRIAL_TOLERANCE;
 use std::ops::Range;
 use weight::Weight;
 

@@ -13,7 +13,7 @@ use super::super::single_contact::MAX_DOUBT;
 use super::{Progress, Stop};
 use crate::gap::Gap;
 use crate::numerics::LinearSystem;
-use crate::quadrature::panels::{Several, System, TRIAL_TOLERANCE};
+use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
 use std::ops::Range;
@@ -25,6 +25,10 @@ const MAX_STEPS: usize = 60;
 /// or the same end is passed. Then that contact or gap is taken not to exist: a gap at a kink, or a
 /// contact where the bodies have just met, may be as narrow as rounding, and 0.3⁴⁵ is less.
 const MAX_CUT: i32 = 9;
+
+/// Size of a step after which trials end: it leaves the limits off by about its square, and a trial
+/// no more.
+const LAST_TRIAL: f64 = 0.01;
 
 /// Number of such steps after which a width goes together with another that is taken not to exist:
 /// it is 0.3⁶ of what it was.
@@ -168,7 +172,7 @@ impl<T: Real> NewtonSeveral<T> {
             }
             if several.is_trial() {
                 let is_stalled = self.progress.judge([size, T::zero()]).is_stalled;
-                self.is_trial = size > T::of(TRIAL_TOLERANCE).sqrt() && !is_stalled;
+                self.is_trial = size > T::of(LAST_TRIAL) && !is_stalled;
                 self.progress.note([size, T::zero()]);
                 continue;
             }
