@@ -32,7 +32,11 @@ use std::cmp::Ordering::Equal;
 pub(super) const FIRST_CELLS: usize = 33;
 
 /// Number of cells above which none is cut any more.
-const MAX_CELLS: usize = 6000;
+const MAX_CELLS: usize = 15_000;
+
+/// Largest number of contacts: elimination with two limits each takes seconds, and more of them are
+/// mostly the rounding of heights.
+const MAX_CONTACTS: usize = 1000;
 
 /// Largest number of rounds of cuts: enough for a contact of 1e-16 of the bodies.
 const MAX_CUTS: usize = 48;
@@ -52,7 +56,7 @@ const MAX_CHANGES: usize = 400;
 const MAX_IN_VAIN: usize = 4;
 
 /// Largest sum of cells times steps over all linear systems of a search: half a minute at worst.
-const MAX_WORK: usize = 200_000_000;
+const MAX_WORK: usize = 40_000_000;
 
 /// Two bodies and a load.
 pub(super) struct Scene<'s, T> {
@@ -164,6 +168,9 @@ impl<T: Real> ActiveSet<T> {
         for _ in 0..MAX_CUTS {
             self.converge()?;
             let (marks, intervals) = (self.marks(scene.known), self.intervals());
+            if intervals.len() > MAX_CONTACTS {
+                return Err(NotFound::Unsettled { solves: self.solves });
+            }
             if !self.cut(&marks, &intervals, height)? {
                 break;
             }

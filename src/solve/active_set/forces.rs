@@ -27,8 +27,11 @@ impl<T: Real> ActiveSet<T> {
         let arms: Vec<_> = on.iter().map(|&i| self.arm(self.cells[i].centre())).collect();
         let exact = if on.len() <= DENSE { self.eliminate(&on, &arms) } else { None };
         let found = exact.is_some();
-        self.work += self.cells.len() * if found { on.len() } else { MAX_STEPS };
-        let forces = exact.unwrap_or_else(|| self.iterate(&on, &arms));
+        let (forces, steps) = match exact {
+            Some(forces) => (forces, on.len()),
+            None => self.iterate(&on, &arms),
+        };
+        self.work += self.cells.len() * steps;
         let mut all = vec![T::zero(); self.cells.len()];
         let mut largest = T::zero();
         for (&i, &force) in on.iter().zip(&forces) {
@@ -67,9 +70,9 @@ impl<T: Real> ActiveSet<T> {
     }
 
     /// Returns the forces by conjugate gradients among forces of one sum, and of one moment if the
-    /// bodies turn. The preconditioner closes the gaps of each group of neighbours as if it were
+    /// bodies turn; and the number of steps. The preconditioner closes the gaps of each group of neighbours as if it were
     /// alone.
-    fn iterate(&self, on: &[usize], arms: &[T]) -> Vec<T> {
+    fn iterate(&self, on: &[usize], arms: &[T]) -> (Vec<T>, usize) {
         let zero = T::zero();
         let mut all = vec![zero; self.cells.len()];
         let mut sunk = all.clone();
@@ -90,8 +93,9 @@ impl<T: Real> ActiveSet<T> {
         let mut missed: Vec<_> =
             on.iter().zip(sunk).map(|(&i, sunk)| -sunk - self.rise[i]).collect();
         let (mut next, mut size) = balance.step(&mut missed);
-        let mut way = next.clone();
-        for _ in 0..MAX_STEPS {
+        let (mut way, mut steps) = (next.clone(), 0);
+        while steps < MAX_STEPS {
+            steps += 1;
             if dot(&next, &next) <= T::of(TOLERANCE * TOLERANCE) * dot(&forces, &forces) {
                 break;
             }
@@ -110,7 +114,7 @@ impl<T: Real> ActiveSet<T> {
                 *way = next + size / before * *way;
             }
         }
-        forces
+        (forces, steps)
     }
 }
 

@@ -64,19 +64,28 @@ impl<T: Real> ActiveSet<T> {
                 continue;
             }
             let highest = beside.iter().flatten().fold(gap(i), |high, there| high.max(there.1));
-            if gap(i) <= highest - gap(i) {
-                let lower = match beside {
-                    [Some(one), Some(other)] => {
-                        if one.1 < other.1 {
-                            one.0
-                        } else {
-                            other.0
-                        }
-                    }
-                    _ => i,
-                };
-                mark(i.min(lower), i.max(lower));
+            if gap(i) > highest - gap(i) {
+                continue;
             }
+            let width = |j: usize| self.cells[j].width();
+            let others = beside.iter().flatten().map(|&(j, _, _)| j);
+            // In a wider neighbour the gap may be lower than in its middle.
+            let wider: Vec<_> = others.filter(|&j| width(j) > T::of(1.5) * width(i)).collect();
+            if !wider.is_empty() {
+                wider.into_iter().for_each(|j| mark(j, j));
+                continue;
+            }
+            let lower = match beside {
+                [Some(one), Some(other)] => {
+                    if one.1 < other.1 {
+                        one.0
+                    } else {
+                        other.0
+                    }
+                }
+                _ => i,
+            };
+            mark(i.min(lower), i.max(lower));
         }
         self.mark_by(known, &mut marks);
         marks
