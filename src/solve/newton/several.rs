@@ -30,6 +30,9 @@ const MAX_CUT: i32 = 9;
 /// no more.
 const LAST_TRIAL: f64 = 0.01;
 
+/// Number of conditions from one to the next whose uncertainties are taken together.
+const APART: usize = 64;
+
 /// Number of such steps after which a width goes together with another that is taken not to exist:
 /// it is 0.3⁶ of what it was.
 const MAX_CUT_STEPS: i32 = 3;
@@ -97,7 +100,7 @@ pub(in super::super) struct NewtonSeveral<T> {
     moves: Vec<T>,
     /// Numbers of the widths, from the narrowest to the widest.
     order: Vec<usize>,
-    /// Right-hand side with the uncertainty of one condition, and the uncertainty of the limits due
+    /// Right-hand side with the uncertainty of some conditions, and the uncertainty of the limits due
     /// to all.
     unit: Vec<T>,
     open: Vec<T>,
@@ -386,14 +389,16 @@ impl<T: Real> NewtonSeveral<T> {
     }
 
     /// Estimates the errors of the limits, from the uncertainty of the equations and rounding.
+    /// Conditions far apart are taken together: a limit feels the nearest.
     fn estimate(&mut self) {
         let n = self.step.len();
         self.open.clear();
         self.open.resize(n, T::zero());
-        for (k, &error) in self.system.open.iter().enumerate() {
+        for first in 0..n.min(APART) {
             self.unit.clear();
             self.unit.resize(n, T::zero());
-            self.unit[k] = error;
+            let each = self.unit.iter_mut().zip(&self.system.open).skip(first).step_by(APART);
+            each.for_each(|(unit, &error)| *unit = error);
             self.linear.solve(&self.unit, &mut self.step);
             for (open, step) in self.open.iter_mut().zip(&self.step) {
                 *open += step.abs();
