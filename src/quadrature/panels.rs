@@ -73,7 +73,7 @@ pub(crate) fn nodes<T: Real>(
 ) -> Result<(), ContactError<T>> {
     let Some(integrator) = integrator.panels() else { return Ok(()) };
     let (PanelSet { panels, .. }, on) = integrator.contact(contact);
-    let nodes = panel::within(panels, on).iter().flat_map(Panel::telling_nodes);
+    let nodes = panel::within(panels, on).iter().flat_map(Panel::nodes);
     nodes.filter(|&x| on.contains(x)).try_for_each(show)
 }
 

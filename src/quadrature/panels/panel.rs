@@ -90,19 +90,8 @@ impl<T: Real> Panel<T> {
 
     /// Returns the nodes.
     pub fn nodes(&self) -> impl Iterator<Item = T> + use<'_, T> {
-        self.places(self.n)
-    }
-
-    /// Returns the places of n nodes.
-    fn places(&self, n: usize) -> impl Iterator<Item = T> + use<'_, T> {
         let place = |&z: &f64| self.x[0] + self.half() * T::of(1.0 + z);
-        Table::of(n).z[..n].iter().map(place)
-    }
-
-    /// Returns as many nodes as there are coefficients beyond rounding and the error of the samples.
-    pub fn telling_nodes(&self) -> impl Iterator<Item = T> + use<'_, T> {
-        let length = significant_length(self.coefficients(), 0..1, |_| self.error.max(self.noise));
-        self.places(size_for(length))
+        Table::of(self.n).z[..self.n].iter().map(place)
     }
 
     pub fn coefficients(&self) -> &[T] {
