@@ -169,6 +169,24 @@ fn a_hundred_contacts() {
     assert_eq!(more.intervals.len(), fine.intervals.len());
 }
 
+/// Next to a wide cell the lowest of narrow ones is not cut again and again.
+#[test]
+fn noise_is_resolved_in_few_rounds() {
+    let mut random = Random(5);
+    let noise: Vec<f64> = (0..1201).map(|_| random.normal()).collect();
+    let load = 0.05;
+    let h = |x: f64| {
+        let at = (x + 1.0) * 600.0;
+        let i = (at.floor().max(0.0) as usize).min(1199);
+        let share = at - i as f64;
+        0.5 * x * x + 0.03 * load * (noise[i] + share * (noise[i + 1] - noise[i]))
+    };
+    let known = heights(1201, [-1.0, 1.0], h);
+    let scene = Scene { kappa: 1.0, known: &known, ..scene(load, [-1.0, 1.0]) };
+    let set = set(&scene, h).unwrap();
+    assert!(set.solves < 36, "{} solves", set.solves);
+}
+
 #[test]
 fn corners_hold_the_ends() {
     for (a, k, phase, load, n, reaches) in [

@@ -165,18 +165,12 @@ impl<T: Real> NewtonSeveral<T> {
             self.turn(&mut turned, conditions.besides);
             let size = self.size();
             match self.limit(conditions) {
-                // Whether a contact or a gap exists is for all panels to say.
-                Ok(true) => {
-                    self.is_trial = false;
-                    continue;
-                }
+                Ok(true) => continue,
                 Ok(false) => {}
                 Err(stop) => return Ok(Err(stop)),
             }
             if several.is_trial() {
-                let is_stalled = self.progress.judge([size, T::zero()]).is_stalled;
-                self.is_trial = size > T::of(LAST_TRIAL) && !is_stalled;
-                self.progress.note([size, T::zero()]);
+                self.is_trial = size > T::of(LAST_TRIAL);
                 continue;
             }
             if self.accept(size) {
