@@ -31,12 +31,9 @@ use std::cmp::Ordering::Equal;
 /// Number of cells at first; twice as many after a failed check may resolve more.
 pub(super) const FIRST_CELLS: usize = 33;
 
-/// Number of cells above which none is cut any more.
+/// Number of cells above which none is cut any more: five for each of 3 000 contacts, whose limits
+/// take minutes.
 const MAX_CELLS: usize = 15_000;
-
-/// Largest number of contacts: elimination with two limits each takes seconds, and more of them are
-/// mostly the rounding of heights.
-const MAX_CONTACTS: usize = 1000;
 
 /// Largest number of rounds of cuts: enough for a contact of 1e-16 of the bodies.
 const MAX_CUTS: usize = 48;
@@ -168,9 +165,6 @@ impl<T: Real> ActiveSet<T> {
         for _ in 0..MAX_CUTS {
             self.converge()?;
             let (marks, intervals) = (self.marks(scene.known), self.intervals());
-            if intervals.len() > MAX_CONTACTS {
-                return Err(NotFound::Unsettled { solves: self.solves });
-            }
             if !self.cut(&marks, &intervals, height)? {
                 break;
             }
