@@ -74,9 +74,8 @@ impl<T: Real> NearFarSum<T> {
             self.parts.push(FarPanel::new(clip(panel, x), on, seen, &mut self.nodes));
         }
         self.groups.clear();
-        let is_far = |[from, to]: [T; 2]| {
-            seen == Seen::Outside && from >= on.left && to <= on.right
-        };
+        let is_far =
+            |[from, to]: [T; 2]| seen == Seen::Outside && from >= on.left && to <= on.right;
         group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes, &is_far);
     }
 
@@ -99,7 +98,8 @@ impl<T: Real> NearFarSum<T> {
                 number = group.next;
                 continue;
             }
-            if group.is_few() {
+            // A group that is not divided.
+            if group.next == number + 1 {
                 group.parts.clone().for_each(|j| show(Distance::FarPanel(j, &self.parts[j])));
             }
             number += 1;

@@ -61,8 +61,8 @@ use one_of_several::OneOfSeveral;
 use std::ops::Range;
 use weight::Weight;
 
-/// Least width of a gap, in half-widths of the contact next to it, for a trial.
-const LEAST_TRIAL_GAP: f64 = 0.01;
+/// Least half of a gap, in half-widths of the contact next to it, for a trial.
+const LEAST_TRIAL_ROOM: f64 = 0.005;
 
 /// Several contacts on their panels.
 #[derive(Clone)]
@@ -104,7 +104,7 @@ impl<T: Real> Several<T> {
 
     /// Sets the contacts, between the ends of the bodies, and the outermost limits that are
     /// corners: ready for the conditions on the limits, not yet for pressures. Keeps the samples of
-    /// earlier contacts if their number is the same.
+    /// earlier contacts if their number is the same. Tells whether a trial has saved panels.
     pub fn set(
         &mut self,
         gap: &Gap<'_, T>,
@@ -112,7 +112,7 @@ impl<T: Real> Several<T> {
         corners: Ends<bool>,
         ends: Ends<T>,
         is_trial: bool,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Result<bool, ContactError<T>> {
         self.weight.set(on, corners);
         if on.len() != self.count {
             self.parts.iter_mut().for_each(|part| part.clear(true));
@@ -121,7 +121,7 @@ impl<T: Real> Several<T> {
         while self.parts.len() < self.count {
             self.parts.push(OneOfSeveral::new(self.tolerance));
         }
-        let half = T::of(0.5);
+        let (half, mut is_tried) = (T::of(0.5), false);
         for (i, part) in self.parts[..self.count].iter_mut().enumerate() {
             // No contact is sampled beyond the middle of a gap.
             let from = if i == 0 { ends.left } else { half * on[i - 1].right + half * on[i].left };
@@ -131,18 +131,11 @@ impl<T: Real> Several<T> {
             self.cost += std::mem::take(&mut part.panel_set.cost);
             sampled?;
             // A gap narrower than a trial's outermost node is far from the limit would not count.
-            let apart = on.windows(2).skip(i.saturating_sub(1)).take(1 + usize::from(i > 0));
-            let is_wide = |gap: &[Interval<T>]| {
-                gap[1].left - gap[0].right > T::of(LEAST_TRIAL_GAP) * on[i].half_width()
-            };
-            part.set(|x| self.weight.on_contact(i, x), is_trial && apart.into_iter().all(is_wide));
+            let room = (on[i].left - from).min(to - on[i].right);
+            let is_trial = is_trial && room > T::of(LEAST_TRIAL_ROOM) * on[i].half_width();
+            is_tried |= part.set(|x| self.weight.on_contact(i, x), is_trial);
         }
-        Ok(())
-    }
-
-    /// Tells whether any contact is on a panel for a trial only.
-    pub fn is_trial(&self) -> bool {
-        self.parts().iter().any(|part| part.is_trial)
+        Ok(is_tried)
     }
 
     /// Samples between the nodes of all contacts; tells whether panels have missed a feature.

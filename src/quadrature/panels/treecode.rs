@@ -148,11 +148,6 @@ impl<T: Real> Group<T> {
         x > self.near[0] && x < self.near[1]
     }
 
-    /// Tells whether the group is not divided.
-    pub fn is_few(&self) -> bool {
-        self.parts.len() <= MAX_UNDIVIDED
-    }
-
     /// Returns a bound on the error of the integral by the errors of the panels, without the factor
     /// of dθ.
     pub fn doubt(&self, x: T) -> T {

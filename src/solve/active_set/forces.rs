@@ -27,10 +27,7 @@ impl<T: Real> ActiveSet<T> {
         let arms: Vec<_> = on.iter().map(|&i| self.arm(self.cells[i].centre())).collect();
         let exact = if on.len() <= DENSE { self.eliminate(&on, &arms) } else { None };
         let found = exact.is_some();
-        let (forces, steps) = match exact {
-            Some(forces) => (forces, on.len()),
-            None => self.iterate(&on, &arms),
-        };
+        let (forces, steps) = exact.unwrap_or_else(|| self.iterate(&on, &arms));
         self.work += self.cells.len() * steps;
         let mut all = vec![T::zero(); self.cells.len()];
         let mut largest = T::zero();
@@ -54,9 +51,9 @@ impl<T: Real> ActiveSet<T> {
         DMatrix::from_fn(on.len(), on.len(), entry).cholesky()
     }
 
-    /// Returns the forces by elimination: `K q = level + slope arm - rise` with `Σ q = 1` and, if
-    /// the bodies turn, `Σ q arm = 0`.
-    fn eliminate(&self, on: &[usize], arms: &[T]) -> Option<Vec<T>> {
+    /// Returns the forces by elimination, and the number of steps: `K q = level + slope arm - rise`
+    /// with `Σ q = 1` and, if the bodies turn, `Σ q arm = 0`.
+    fn eliminate(&self, on: &[usize], arms: &[T]) -> Option<(Vec<T>, usize)> {
         let lowest = on.iter().map(|&i| self.rise[i]).reduce(|low, rise| low.min(rise))?;
         let factor = self.factor(on)?;
         let even = factor.solve(&DVector::from_element(on.len(), T::one()));
@@ -66,12 +63,12 @@ impl<T: Real> ActiveSet<T> {
         let products = [even.sum(), even.dot(&arms), leaning.dot(&arms)];
         let [level, slope] = multiples(products, [T::one() + rise.sum(), rise.dot(&arms)]);
         let forces = even * level + leaning * slope - rise;
-        forces.iter().all(|force| force.is_finite()).then(|| forces.data.into())
+        forces.iter().all(|force| force.is_finite()).then(|| (forces.data.into(), on.len()))
     }
 
     /// Returns the forces by conjugate gradients among forces of one sum, and of one moment if the
-    /// bodies turn; and the number of steps. The preconditioner closes the gaps of each group of neighbours as if it were
-    /// alone.
+    /// bodies turn; and the number of steps. The preconditioner closes the gaps of each group of
+    /// neighbours as if it were alone.
     fn iterate(&self, on: &[usize], arms: &[T]) -> (Vec<T>, usize) {
         let zero = T::zero();
         let mut all = vec![zero; self.cells.len()];

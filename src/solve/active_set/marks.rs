@@ -67,25 +67,14 @@ impl<T: Real> ActiveSet<T> {
             if gap(i) > highest - gap(i) {
                 continue;
             }
-            let width = |j: usize| self.cells[j].width();
-            let others = beside.iter().flatten().map(|&(j, _, _)| j);
             // In a wider neighbour the gap may be lower than in its middle.
-            let wider: Vec<_> = others.filter(|&j| width(j) > T::of(1.5) * width(i)).collect();
-            if !wider.is_empty() {
-                wider.into_iter().for_each(|j| mark(j, j));
-                continue;
+            let others = beside.iter().flatten().map(|there| there.0);
+            let times = |j: usize| self.cells[j].width() / self.cells[i].width();
+            if others.clone().filter(|&j| times(j) > T::of(1.5)).map(|j| mark(j, j)).count() == 0 {
+                let lower =
+                    others.reduce(|one, other| if gap(other) < gap(one) { other } else { one });
+                lower.into_iter().for_each(|j| mark(i.min(j), i.max(j)));
             }
-            let lower = match beside {
-                [Some(one), Some(other)] => {
-                    if one.1 < other.1 {
-                        one.0
-                    } else {
-                        other.0
-                    }
-                }
-                _ => i,
-            };
-            mark(i.min(lower), i.max(lower));
         }
         self.mark_by(known, &mut marks);
         marks

@@ -98,10 +98,8 @@ pub(in super::super) struct NewtonSeveral<T> {
     step: Vec<T>,
     /// Steps of all limits.
     moves: Vec<T>,
-    /// Numbers of the widths, from the narrowest to the widest.
-    order: Vec<usize>,
-    /// Right-hand side with the uncertainty of some conditions, and the uncertainty of the limits due
-    /// to all.
+    /// Right-hand side with the uncertainty of some conditions, and the uncertainty of the limits
+    /// due to all.
     unit: Vec<T>,
     open: Vec<T>,
 }
@@ -111,7 +109,7 @@ impl<T: Real> NewtonSeveral<T> {
         let (held, progress, passed) = (Ends::both(false), Progress::new(), None);
         let [errors, step, moves, unit, open] = std::array::from_fn(|_| Vec::new());
         let (system, linear) = (System::new(), LinearSystem::new());
-        let (on, order, tilt, load) = (Vec::new(), Vec::new(), T::zero(), T::zero());
+        let (on, tilt, load) = (Vec::new(), T::zero(), T::zero());
         let (cut, widths) = (Vec::new(), Vec::new());
         Self {
             tilt,
@@ -128,7 +126,6 @@ impl<T: Real> NewtonSeveral<T> {
             linear,
             step,
             moves,
-            order,
             unit,
             open,
         }
@@ -169,7 +166,7 @@ impl<T: Real> NewtonSeveral<T> {
                 Ok(false) => {}
                 Err(stop) => return Ok(Err(stop)),
             }
-            if several.is_trial() {
+            if self.is_trial {
                 self.is_trial = size > T::of(LAST_TRIAL);
                 continue;
             }
@@ -204,7 +201,7 @@ impl<T: Real> NewtonSeveral<T> {
             return Ok(Err(Stop::Gone));
         }
         let Conditions { corners, ends, .. } = *conditions;
-        several.set(turned, &self.on, corners, ends, self.is_trial)?;
+        self.is_trial = several.set(turned, &self.on, corners, ends, self.is_trial)?;
         several.system(self.load, &mut self.system);
         match conditions.besides {
             Some(Besides::Tilt(at)) => several.turning(conditions.load, at, &mut self.system),
@@ -286,11 +283,13 @@ impl<T: Real> NewtonSeveral<T> {
     fn accept(&mut self, size: T) -> bool {
         let judged = self.progress.judge([size, T::zero()]);
         let is_short = size <= T::epsilon().sqrt();
-        let is_stalled = judged.is_stalled && (is_short || self.is_small());
+        let is_stalled =
+            judged.is_stalled && (is_short || self.is_within(std::iter::repeat(T::of(MAX_DOUBT))));
         if judged.is_done || is_stalled {
             self.estimate();
         }
-        if judged.is_done || is_stalled && (is_short || self.is_all_doubt()) {
+        if judged.is_done || is_stalled && (is_short || self.is_within(self.errors.iter().copied()))
+        {
             if judged.is_stalled {
                 for (i, step) in self.moves.iter().enumerate() {
                     self.errors[i] += step.abs() / self.on[i / 2].half_width();
@@ -365,21 +364,10 @@ impl<T: Real> NewtonSeveral<T> {
         shares.fold(T::zero(), T::max)
     }
 
-    /// Returns the half-width of the contact of each limit.
-    fn half_widths(&self) -> impl Iterator<Item = T> + '_ {
-        self.on.iter().flat_map(|on| [on.half_width(); 2])
-    }
-
-    /// Tells whether no limit has moved by more than the largest uncertainty allowed.
-    fn is_small(&self) -> bool {
-        let mut moves = self.moves.iter().zip(self.half_widths());
-        moves.all(|(step, half_width)| step.abs() <= T::of(MAX_DOUBT) * half_width)
-    }
-
-    /// Tells whether no limit has moved by more than its own uncertainty.
-    fn is_all_doubt(&self) -> bool {
-        let mut moves = self.moves.iter().zip(self.half_widths()).zip(&self.errors);
-        moves.all(|((step, half_width), &error)| step.abs() <= error * half_width)
+    /// Tells whether no limit has moved by more than a share of the half-width of its contact.
+    fn is_within(&self, shares: impl Iterator<Item = T>) -> bool {
+        let mut moves = self.moves.iter().zip(shares).enumerate();
+        moves.all(|(i, (step, share))| step.abs() <= share * self.on[i / 2].half_width())
     }
 
     /// Estimates the errors of the limits, from the uncertainty of the equations and rounding.

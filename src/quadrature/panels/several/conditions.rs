@@ -1,7 +1,8 @@
 //! The conditions on the limits of several contacts, and their derivatives by the limits.
 
 use super::Several;
-use super::one_of_several::{OneOfSeveral, gauss};
+use super::one_of_several::OneOfSeveral;
+use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real, Side};
 use std::ops::Range;
@@ -205,7 +206,7 @@ impl<T: Real> Several<T> {
     /// Shows the nodes of rules from both ends of a gap to its middle: the place, its distances to
     /// the ends, V, and `S/p dx` without the zero of p.
     fn through_gap(&self, k: usize, far: &FarField<T>, mut show: impl FnMut(T, [T; 2], T, T)) {
-        let (one, half) = (T::one(), T::of(0.5));
+        let (one, half, rule) = (T::one(), T::of(0.5), GaussLegendre::sixteen());
         let [left, right] = [k, k + 1].map(|i| self.parts[i].on);
         let width = right.left - left.right;
         for (near, on, edge, sign) in [(k, left, left.right, one), (k + 1, right, right.left, -one)]
@@ -217,7 +218,7 @@ impl<T: Real> Several<T> {
             let step = last / T::count(pieces);
             for piece in 0..pieces {
                 let start = step * T::count(piece);
-                for (&node, &weight) in gauss().nodes.iter().zip(&gauss().weights).take(gauss().n) {
+                for (&node, &weight) in rule.nodes.iter().zip(&rule.weights).take(rule.n) {
                     let t = start + half * step * T::of(1.0 + node);
                     let sinh = (half * t).sinh();
                     let sinh_t = (sinh + sinh) * (one + sinh * sinh).sqrt();

@@ -7,7 +7,6 @@ use super::super::panel::{Panel, Series, spans, within};
 use super::super::panel_set::{MAX_MISSED, PanelSet};
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES, Table, by_size, power_series, size_for};
-use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::Moments;
 use crate::{ContactError, InputError, Interval, Real, Side};
 
@@ -53,8 +52,6 @@ pub(super) struct OneOfSeveral<T> {
     height: Option<[T; 2]>,
     /// Panels of `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
     panels: Vec<Panel<T>>,
-    /// Flag: they are one panel for a trial.
-    pub is_trial: bool,
     /// Spans still to be resolved, each with the number of its halvings.
     waiting: Vec<([T; 2], usize)>,
     /// Bound on |H|.
@@ -77,7 +74,6 @@ impl<T: Real> OneOfSeveral<T> {
             panel_set: PanelSet::new(tolerance),
             height: None,
             panels: Vec::new(),
-            is_trial: false,
             waiting: Vec::new(),
             size: zero,
             transform: HilbertTransform::new(),
@@ -166,14 +162,38 @@ impl<T: Real> OneOfSeveral<T> {
         height.abs() + self.height.map_or(T::zero(), |[_, height]| height.abs())
     }
 
-    /// Multiplies the slope by a weight, and prepares for the conditions on the limits. A trial is
-    /// done with one panel if that is almost enough.
-    pub fn set(&mut self, weight: impl Fn(T) -> T, is_trial: bool) {
+    /// Multiplies the slope by a weight, and prepares for the conditions on the limits. Tells
+    /// whether one panel is almost enough, for a trial.
+    pub fn set(&mut self, weight: impl Fn(T) -> T, is_trial: bool) -> bool {
         let on = self.on;
-        self.panels.clear();
-        self.is_trial = is_trial && self.on_one_panel(&weight);
-        if !self.is_trial {
-            self.on_panels_of_slope(&weight);
+        let tolerance = self.panel_set.tolerance;
+        let saved = within(&self.panel_set.panels, on).len();
+        let is_trial = is_trial && saved >= LEAST_SAVED && self.on_one_panel(&weight);
+        if !is_trial {
+            self.panels.clear();
+            self.size = T::zero();
+            for (panel, x) in spans(within(&self.panel_set.panels, on), on) {
+                self.waiting.clear();
+                self.waiting.push((x, 0));
+                let least = size_for((panel.length + 4).min(MAX_SIZE)).max(8);
+                while let Some((x, halved)) = self.waiting.pop() {
+                    let (product, resolved, moved) =
+                        multiply(x, (&|x| panel.value(x), panel.error, least), &weight, tolerance);
+                    let resolved = resolved && (moved || halved >= DERIVATIVE_HALVES);
+                    let [from, to] = x;
+                    let middle = T::of(0.5) * (from + to);
+                    let may = halved < MAX_HALVES && self.panels.len() < MAX_PANELS;
+                    if !resolved && may && middle > from && middle < to {
+                        self.waiting.push(([middle, to], halved + 1));
+                        self.waiting.push(([from, middle], halved + 1));
+                        continue;
+                    }
+                    let size =
+                        product.coefficients().iter().fold(T::zero(), |sum, a| sum + a.abs());
+                    self.size = self.size.max(size);
+                    self.panels.push(product);
+                }
+            }
         }
         let mut over = None;
         self.moments = edge_integrals::moments(&self.panels, on, false, &mut over, None);
@@ -181,51 +201,18 @@ impl<T: Real> OneOfSeveral<T> {
             self.far.set(&self.panels, on, Seen::Outside);
             self.far.cosines()
         });
+        is_trial
     }
 
     /// Multiplies the slope by a weight on one panel; tells whether that is almost enough.
     fn on_one_panel(&mut self, weight: &impl Fn(T) -> T) -> bool {
-        let sampled = within(&self.panel_set.panels, self.on);
-        if sampled.len() < LEAST_SAVED {
-            return false;
-        }
-        let mut product = Panel::new([self.on.left, self.on.right]);
-        let slope = |x: T| {
-            let panel = sampled.partition_point(|panel| panel.x[1] < x).min(sampled.len() - 1);
-            sampled[panel].value(x)
-        };
-        let seen = sample(&mut product, MAX_SIZE, &slope, weight);
-        let is_enough = seen.last <= T::of(TRIAL_TOLERANCE) * seen.all;
-        if is_enough {
-            self.panels.push(product);
-        }
-        is_enough
-    }
-
-    /// Multiplies the slope by a weight on the panels of the slope, halved as often as needed.
-    fn on_panels_of_slope(&mut self, weight: &impl Fn(T) -> T) {
-        let sampled = within(&self.panel_set.panels, self.on);
-        let tolerance = self.panel_set.tolerance;
-        self.size = T::zero();
-        for (panel, x) in spans(sampled, self.on) {
-            self.waiting.clear();
-            self.waiting.push((x, 0));
-            while let Some((x, halved)) = self.waiting.pop() {
-                let (product, resolved, moved) = multiply(panel, x, weight, tolerance);
-                let resolved = resolved && (moved || halved >= DERIVATIVE_HALVES);
-                let [from, to] = x;
-                let middle = T::of(0.5) * (from + to);
-                let may = halved < MAX_HALVES && self.panels.len() < MAX_PANELS;
-                if !resolved && may && middle > from && middle < to {
-                    self.waiting.push(([middle, to], halved + 1));
-                    self.waiting.push(([from, middle], halved + 1));
-                    continue;
-                }
-                let largest = product.coefficients().iter().fold(T::zero(), |sum, a| sum + a.abs());
-                self.size = self.size.max(largest);
-                self.panels.push(product);
-            }
-        }
+        let (x, zero) = ([self.on.left, self.on.right], T::zero());
+        let slope = |x| self.panel_set.slope(x).unwrap_or(zero);
+        let tolerance = T::of(TRIAL_TOLERANCE);
+        let (product, resolved, _) = multiply(x, (&slope, zero, MAX_SIZE), weight, tolerance);
+        self.panels.clear();
+        self.panels.push(product);
+        resolved
     }
 
     /// Prepares for pressures in the contact.
@@ -287,22 +274,40 @@ impl<T: Real> OneOfSeveral<T> {
     }
 }
 
-/// Returns a panel of the product over a span, and two flags: its nodes suffice for the value, and
-/// for the derivatives that dual numbers carry.
+/// Returns a panel of the product of a slope and a weight over a span, and two flags: its nodes
+/// suffice for the value, and for the derivatives that dual numbers carry. The slope has an error,
+/// and takes at least so many nodes.
 fn multiply<T: Real>(
-    panel: &Panel<T>,
     x: [T; 2],
+    (slope, error, least): (&impl Fn(T) -> T, T, usize),
     weight: &impl Fn(T) -> T,
     tolerance: T,
 ) -> (Panel<T>, bool, bool) {
     let half = T::of(0.5);
-    let least = size_for((panel.length + 4).min(MAX_SIZE)).max(8);
     let (mut product, mut resolved, mut moved) = (Panel::new(x), false, false);
     for n in SIZES.into_iter().filter(|&n| n >= least) {
-        let Sampled { all, last, largest, bend } =
-            sample(&mut product, n, &|x| panel.value(x), weight);
+        let table = Table::of(n);
+        let (reach, mut largest) = (half * (x[1] - x[0]), T::zero());
+        let mut values = [T::zero(); MAX_SIZE];
+        for (value, &z) in values[..n].iter_mut().zip(&table.z) {
+            // From the nearer end, where the weight may be steep.
+            let place =
+                if z < 0.0 { x[0] + reach * T::of(1.0 + z) } else { x[1] - reach * T::of(1.0 - z) };
+            let factor = weight(place);
+            largest = largest.max(factor.abs());
+            *value = factor * slope(place);
+        }
+        by_size!(n, N => {
+            let mut row = [T::zero(); N];
+            row.copy_from_slice(&values[..N]);
+            product.series[..N].copy_from_slice(&table.coefficients(&row));
+        });
+        product.count(n);
+        let size = |terms: &[T]| terms.iter().fold(T::zero(), |max, a| max.max(a.abs()));
+        let [all, last] = [size(&product.series[..n]), size(&product.series[n - 2..n])];
         // The rounding of x counts where the weight is steep.
-        let noise = panel.error * largest + T::epsilon() * x[0].abs().max(x[1].abs()) * bend;
+        let bend = (values[n - 1] - values[0]).abs() / (x[1] - x[0]);
+        let noise = error * largest + T::epsilon() * x[0].abs().max(x[1].abs()) * bend;
         product.error = noise + last;
         // Halving does not mend values that are not finite.
         resolved = last <= half * tolerance * all + noise || !all.is_finite();
@@ -321,49 +326,4 @@ fn multiply<T: Real>(
         }
     }
     (product, resolved, moved)
-}
-
-/// Sizes on the panel of a product.
-struct Sampled<T> {
-    /// Largest coefficient, and the largest of the last two.
-    all: T,
-    last: T,
-    /// Largest weight.
-    largest: T,
-    /// Mean slope.
-    bend: T,
-}
-
-/// Samples the product of a slope and a weight at n nodes of a panel.
-fn sample<T: Real>(
-    product: &mut Panel<T>,
-    n: usize,
-    slope: &impl Fn(T) -> T,
-    weight: &impl Fn(T) -> T,
-) -> Sampled<T> {
-    let (table, x) = (Table::of(n), product.x);
-    let (reach, mut largest) = (product.half(), T::zero());
-    let mut values = [T::zero(); MAX_SIZE];
-    for (value, &z) in values[..n].iter_mut().zip(&table.z) {
-        // From the nearer end, where the weight may be steep.
-        let place =
-            if z < 0.0 { x[0] + reach * T::of(1.0 + z) } else { x[1] - reach * T::of(1.0 - z) };
-        let factor = weight(place);
-        largest = largest.max(factor.abs());
-        *value = factor * slope(place);
-    }
-    by_size!(n, N => {
-        let mut row = [T::zero(); N];
-        row.copy_from_slice(&values[..N]);
-        product.series[..N].copy_from_slice(&table.coefficients(&row));
-    });
-    product.count(n);
-    let size = |terms: &[T]| terms.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-    let [all, last] = [size(&product.series[..n]), size(&product.series[n - 2..n])];
-    Sampled { all, last, largest, bend: (values[n - 1] - values[0]).abs() / (x[1] - x[0]) }
-}
-
-/// Returns the rule for one span of a gap.
-pub(super) fn gauss() -> &'static GaussLegendre {
-    GaussLegendre::sixteen()
 }
