@@ -46,17 +46,6 @@ impl<T: Real> HalfAngle<T> {
     }
 }
 
-/// Reciprocals 1/k, from k = 1 on.
-const SHARES: [f64; MAX_SIZE + 1] = {
-    let mut shares = [0.0; MAX_SIZE + 1];
-    let mut k = 0;
-    while k <= MAX_SIZE {
-        shares[k] = 1.0 / (k + 1) as f64;
-        k += 1;
-    }
-    shares
-};
-
 /// Integrals of `cos kφ` over a span of φ; over the span from 0 to θ they are `sin kθ/k`.
 pub(super) type Sines<T> = [T; MAX_SIZE + 2];
 
@@ -79,8 +68,8 @@ impl<T: Real> HalfAngle<T> {
         let mut sines = [T::zero(); MAX_SIZE + 2];
         let twice = two * self.cosine();
         let (mut before, mut sine) = (T::zero(), self.sine());
-        for (integral, &share) in sines[1..count].iter_mut().zip(&SHARES) {
-            *integral = sine * T::of(share);
+        for (k, integral) in sines[1..count].iter_mut().enumerate() {
+            *integral = sine / T::count(k + 1);
             (before, sine) = (sine, twice * sine - before);
         }
         sines
@@ -94,7 +83,8 @@ pub(crate) struct Arc<T> {
     sin: T,
     /// Value of σ at the left end; at the right end it is the negative.
     pub tangent: T,
-    width: T,
+    /// Width of the contact.
+    pub width: T,
     /// Distance `x_left - x_m`.
     pub to_left: T,
 }
@@ -131,10 +121,5 @@ impl<T: Real> Arc<T> {
             weight[i] = T::of(rule.weights[node]) * turn;
         }
         [y, weight]
-    }
-
-    /// Returns the width of the contact.
-    pub fn width(&self) -> T {
-        self.width
     }
 }

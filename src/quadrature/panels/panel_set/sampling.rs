@@ -89,10 +89,12 @@ impl<T: Real> PanelSet<T> {
         let allowed = (self.tolerance * self.size.max(slope)).max(noise);
         let rounded = (T::epsilon() * bodies).max(measured);
         let verdict = judge(panel.n, &panel.series, allowed, rounded);
+        // More than the noise at a breakpoint: a tip is much narrower than the panel.
+        let missed = missed.max(at_limit) - T::epsilon().sqrt() * self.size;
         let (error, mut next, mut split) = match verdict {
             // The first sign of a tip looks like noise.
             Resolution::Good(error) | Resolution::Noise(error)
-                if counts && self.misses_a_tip(missed.max(at_limit), allowed.max(error)) =>
+                if counts && missed > T::of(64.0) * allowed.max(error) =>
             {
                 (error, None, true)
             }
@@ -139,12 +141,6 @@ impl<T: Real> PanelSet<T> {
         }
         let hides = heights.is_err();
         if trial.level >= LEVELS_OF_A_STEP { heights.map(|()| false) } else { Ok(hides) }
-    }
-
-    /// Tells whether the error of a panel at a breakpoint exceeds the noise there: a tip is much
-    /// narrower than the panel.
-    fn misses_a_tip(&self, missed: T, noise: T) -> bool {
-        missed > T::epsilon().sqrt() * self.size + T::of(64.0) * noise
     }
 
     /// Raises the error estimates of accepted panels. They may miss the slope at a given limit; and

@@ -33,7 +33,7 @@ const LEAST_SPAN: f64 = 1e-3;
 
 /// Largest share that a series over a whole contact may leave open in a trial: the limits are then
 /// off by about as much, and Newton's method squares that.
-const TRIAL_TOLERANCE: f64 = 1e-5;
+const TRIAL_TOLERANCE: f64 = 2e-5;
 
 /// Least number of panels for which a series over the whole contact is tried: fewer cost less than
 /// the step that it may take more.
