@@ -406,10 +406,15 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
             out.iter_mut().for_each(|pressure| *pressure *= load_case.kappa);
             return Ok(());
         }
-        for (x, out) in x.chunks(LANES).zip(out.chunks_mut(LANES)) {
-            let mut lanes = [x[0]; LANES];
-            lanes[..x.len()].copy_from_slice(x);
-            out.copy_from_slice(&self.in_lanes(load_case, &lanes, x.len())[..x.len()]);
+        let (whole, rest) = x.as_chunks::<LANES>();
+        let (out, rest_out) = out.as_chunks_mut::<LANES>();
+        for (x, out) in whole.iter().zip(out) {
+            *out = self.in_lanes(load_case, x, LANES);
+        }
+        if let [first, ..] = rest {
+            let mut lanes = [*first; LANES];
+            lanes[..rest.len()].copy_from_slice(rest);
+            rest_out.copy_from_slice(&self.in_lanes(load_case, &lanes, rest.len())[..rest.len()]);
         }
         Ok(())
     }

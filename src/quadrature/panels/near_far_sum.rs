@@ -74,8 +74,7 @@ impl<T: Real> NearFarSum<T> {
             self.parts.push(FarPanel::new(clip(panel, x), on, seen, &mut self.nodes));
         }
         self.groups.clear();
-        let is_far =
-            |[from, to]: [T; 2]| seen == Seen::Outside && from >= on.left && to <= on.right;
+        let is_far = |x: [T; 2]| seen == Seen::Outside && x[0] >= on.left && x[1] <= on.right;
         group(&mut self.groups, &self.parts, 0..self.parts.len(), &self.nodes, &is_far);
     }
 

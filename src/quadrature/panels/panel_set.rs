@@ -16,7 +16,7 @@ use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, size_for};
 use crate::profile::Noise;
 use crate::real::same;
 use crate::{ContactError, Ends, Interval, Real, Side};
-use candidate::{Candidate, LEVELS_OF_A_WAVE, MAX_LEVELS, is_long};
+use candidate::{Candidate, FALL_OF_A_ROOT, LEVELS_OF_A_WAVE, MAX_LEVELS, is_long};
 use sampling::SampledBody;
 
 /// Fewest nodes of a panel after the first estimate. On a span a little wider than a contact, the
@@ -345,7 +345,8 @@ impl<T: Real> PanelSet<T> {
                 self.try_out(gap, &mut one)?;
                 self.try_out(gap, &mut other)?;
                 for half in [&mut one, &mut other] {
-                    half.falls = half.falls_below(&trial);
+                    let less = T::of(FALL_OF_A_ROOT) * trial.panel.error;
+                    half.falls = half.panel.error <= less || half.panel.n != trial.panel.n;
                     half.sparse |= half.split && half.panel.error >= T::of(2.0) * trial.panel.error;
                 }
                 // Noise is as large in both halves. So is a wave that is not resolved yet, as long

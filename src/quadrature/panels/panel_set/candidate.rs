@@ -9,7 +9,7 @@ pub(super) const MAX_LEVELS: usize = 110;
 
 /// Share of the error that a half may keep if halving is to go on beyond [`MAX_LEVELS`]: next to a
 /// root of high order, as in the slope of `|x|^(11/10)`, the pressure still depends on the rest.
-const FALL_OF_A_ROOT: f64 = 0.98;
+pub(super) const FALL_OF_A_ROOT: f64 = 0.98;
 
 /// Most halvings next to such a root, so that derivatives do not overflow.
 const LEVELS_OF_A_ROOT: usize = 500;
@@ -44,13 +44,6 @@ impl<T: Real> Candidate<T> {
         let [split, falls, sparse, wave, hides] = [false; 5];
         let (panel, [allowed, derivatives]) = (Panel::new(x), [T::zero(); 2]);
         Self { panel, split, allowed, level: 0, falls, sparse, wave, hides, derivatives }
-    }
-
-    /// Tells whether the error is smaller than on the whole span. Assumes so if the numbers of
-    /// nodes differ.
-    pub fn falls_below(&self, whole: &Self) -> bool {
-        let less = self.panel.error <= T::of(FALL_OF_A_ROOT) * whole.panel.error;
-        less || self.panel.n != whole.panel.n
     }
 
     /// Tells whether the span may be halved again.

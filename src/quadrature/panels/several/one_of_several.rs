@@ -165,8 +165,7 @@ impl<T: Real> OneOfSeveral<T> {
     /// Multiplies the slope by a weight, and prepares for the conditions on the limits. Tells
     /// whether one panel is almost enough, for a trial.
     pub fn set(&mut self, weight: impl Fn(T) -> T, is_trial: bool) -> bool {
-        let on = self.on;
-        let tolerance = self.panel_set.tolerance;
+        let (on, tolerance) = (self.on, self.panel_set.tolerance);
         let saved = within(&self.panel_set.panels, on).len();
         let is_trial = is_trial && saved >= LEAST_SAVED && self.on_one_panel(&weight);
         if !is_trial {
