@@ -60,11 +60,8 @@ impl<T: Real> ActiveSet<T> {
             let beside = [i.checked_sub(1), Some(i + 1).filter(|&next| next < n)];
             let beside = beside.map(|j| j.map(|j| (j, gap(j), self.cells[j].loaded)));
             let minimum = |&(_, there, loaded): &(usize, T, bool)| !loaded && there >= gap(i);
-            if !beside.iter().flatten().all(minimum) {
-                continue;
-            }
             let highest = beside.iter().flatten().fold(gap(i), |high, there| high.max(there.1));
-            if gap(i) > highest - gap(i) {
+            if !beside.iter().flatten().all(minimum) || gap(i) > highest - gap(i) {
                 continue;
             }
             // In a wider neighbour the gap may be lower than in its middle.

@@ -101,6 +101,8 @@ pub(in super::super) struct NewtonSeveral<T> {
     step: Vec<T>,
     /// Steps of all limits.
     moves: Vec<T>,
+    /// Numbers of the widths, from the narrowest to the widest.
+    order: Vec<usize>,
     /// Right-hand side with the uncertainty of some conditions, and the uncertainty of the limits
     /// due to all.
     unit: Vec<T>,
@@ -112,7 +114,7 @@ impl<T: Real> NewtonSeveral<T> {
         let (held, progress, passed) = (Ends::both(false), Progress::new(), None);
         let [errors, step, moves, unit, open] = std::array::from_fn(|_| Vec::new());
         let (system, linear) = (System::new(), LinearSystem::new());
-        let (on, tilt, load) = (Vec::new(), T::zero(), T::zero());
+        let (on, order, tilt, load) = (Vec::new(), Vec::new(), T::zero(), T::zero());
         let (cut, widths) = (Vec::new(), Vec::new());
         Self {
             tilt,
@@ -129,6 +131,7 @@ impl<T: Real> NewtonSeveral<T> {
             linear,
             step,
             moves,
+            order,
             unit,
             open,
         }
@@ -219,7 +222,12 @@ impl<T: Real> NewtonSeveral<T> {
             return Ok(Err(Stop::Failed));
         }
         self.linear.solve(&self.system.residual, &mut self.step);
-        self.set_moves();
+        self.moves.clear();
+        self.moves.resize(2 * self.on.len(), T::zero());
+        let free = self.free();
+        for (moves, &step) in self.moves[free].iter_mut().zip(&self.step) {
+            *moves = -step;
+        }
         Ok(Ok(()))
     }
 
@@ -343,16 +351,6 @@ impl<T: Real> NewtonSeveral<T> {
     /// Returns the range of the limits sought, among all from left to right.
     fn free(&self) -> Range<usize> {
         usize::from(self.held.left)..2 * self.on.len() - usize::from(self.held.right)
-    }
-
-    /// Sets the moves of the limits to the step.
-    fn set_moves(&mut self) {
-        self.moves.clear();
-        self.moves.resize(2 * self.on.len(), T::zero());
-        let free = self.free();
-        for (moves, &step) in self.moves[free].iter_mut().zip(&self.step) {
-            *moves = -step;
-        }
     }
 
     /// Returns the largest step, as a share of the half-width of its contact or of the gap next to

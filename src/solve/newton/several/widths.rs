@@ -52,7 +52,9 @@ impl<T: Real> NewtonSeveral<T> {
     pub(super) fn advance(&mut self) {
         let (zero, one, two) = (T::zero(), T::one(), T::of(2.0));
         let count = self.moves.len();
-        let mut order: Vec<_> = (0..count - 1).collect();
+        let mut order = std::mem::take(&mut self.order);
+        order.clear();
+        order.extend(0..count - 1);
         // The narrowest first: their limits may move by more than the width.
         let by_width = |&one: &usize, &other: &usize| {
             self.width(one).partial_cmp(&self.width(other)).unwrap_or(Ordering::Equal)
@@ -82,6 +84,7 @@ impl<T: Real> NewtonSeveral<T> {
             self.moves[i] -= (one - share) * correction;
             self.moves[i + 1] += share * correction;
         }
+        self.order = order;
         // A correction good for one width may be too much for the next.
         let mut share = one;
         for i in 0..count - 1 {
