@@ -26,9 +26,9 @@ const LEAST_REACH: f64 = 1.04;
 /// is taken.
 const REACHES: [f64; 7] = [1.1, 1.3, 1.6, 3.0, 8.0, 13.0, 18.0];
 
-/// Largest such distance off the surface, where the terms of a polynomial cancel: from here on
-/// Gauss's rule suffices.
-const REACH_IN_PLANE: f64 = 3.0;
+/// Such a distance from which on Gauss's rule suffices. Polynomials are used no farther off the
+/// surface, where their terms cancel, nor in contacts that they do not reach all over.
+const GAUSS_REACH: f64 = 3.0;
 
 /// Place of the points from which the panels are seen.
 #[derive(Clone, Copy, PartialEq)]
@@ -187,7 +187,7 @@ impl<T: Real> NearFarSum<T> {
             (length(place(from)) + length(place(to))) * width <= reach * (to - from)
         };
         self.show(
-            |group| reaches(group.ends(), T::of(REACH_IN_PLANE)),
+            |group| reaches(group.ends(), T::of(GAUSS_REACH)),
             |seen| match seen {
                 Distance::Group(group) => {
                     add(pulls(place(group.ends()[0]), group.charges(), by_width));
@@ -245,14 +245,14 @@ impl<T: Real> FarPanel<T> {
         let width = on.right - on.left;
         let arc = Arc::new(to - from, HalfAngle::of(on, from), HalfAngle::of(on, to), width);
         let farthest = panel.local(on.left).abs().max(panel.local(on.right).abs());
-        let most = if seen == Seen::Below { T::of(REACH_IN_PLANE) } else { farthest };
+        let most = if seen == Seen::Below { T::of(GAUSS_REACH) } else { farthest };
         let reach = reach(panel.coefficients(), most);
-        let reach = if reach >= farthest { reach } else { reach.min(T::of(3.0)) };
+        let reach = if reach >= farthest { reach } else { reach.min(T::of(GAUSS_REACH)) };
         let is_near = reach >= farthest && seen == Seen::Inside;
         // From outside no point comes closer than the ends of the contact.
         let closest = (-panel.local(on.left)).min(panel.local(on.right));
         let closest = if seen == Seen::Outside { closest } else { T::one() };
-        let rule = if reach < T::of(3.0) && !is_near && closest < T::of(3.0) {
+        let rule = if reach < T::of(GAUSS_REACH) && !is_near && closest < T::of(GAUSS_REACH) {
             GaussLegendre::finest()
         } else {
             GaussLegendre::suited(panel.length, arc.tangent)

@@ -29,8 +29,8 @@ const MAX_STEPS: usize = 60;
 /// contact where the bodies have just met, may be as narrow as rounding, and 0.3⁴⁵ is less.
 const MAX_CUT: i32 = 9;
 
-/// Size of a step after which trials end: it leaves the limits off by about its square, and a trial
-/// no more.
+/// Size of a step after which trials end: the limits are then off by about its square, like those
+/// of a trial.
 const LAST_TRIAL: f64 = 0.01;
 
 /// Number of conditions from one to the next whose uncertainties are taken together.
