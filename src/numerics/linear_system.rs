@@ -22,15 +22,15 @@ impl<T: Real> LinearSystem<T> {
         Self { n: 0, factors: Vec::new(), order: Vec::new(), scales: Vec::new() }
     }
 
-    /// Factors a matrix given row by row; `false` if it is singular, or not finite.
-    pub fn factor(&mut self, matrix: &[T], n: usize) -> bool {
-        let zero = T::zero();
+    /// Factors a square matrix given row by row; `false` if it is singular, or not finite.
+    pub fn factor<'m>(&mut self, rows: impl ExactSizeIterator<Item = &'m [T]>) -> bool {
+        let (zero, n) = (T::zero(), rows.len());
         self.n = n;
         self.order.clear();
         self.order.extend(0..n);
         self.factors.clear();
         self.scales.clear();
-        for row in matrix.chunks_exact(n) {
+        for row in rows {
             let scale = row.iter().fold(zero, |max, a| max.max(a.abs())).component(0);
             if !(scale > zero && scale.is_finite()) {
                 return false;
@@ -99,13 +99,13 @@ mod tests {
         let matrix = [0.0, 2e9, 1e9, 1e-7, 1e-7, 0.0, 3.0, -1.0, 4.0];
         let right_side = [4e9, 3e-7, 13.0];
         let (mut system, mut solution) = (LinearSystem::new(), Vec::new());
-        assert!(system.factor(&matrix, 3));
+        assert!(system.factor(matrix.chunks(3)));
         system.solve(&right_side, &mut solution);
         for (row, due) in matrix.chunks(3).zip(right_side) {
             let sum: f64 = row.iter().zip(&solution).map(|(a, x)| a * x).sum();
             assert!((sum / due - 1.0).abs() < 1e-14);
         }
-        assert!(!system.factor(&[1.0, 2.0, 2.0, 4.0], 2));
-        assert!(!system.factor(&[1.0, f64::NAN, 2.0, 4.0], 2));
+        assert!(!system.factor([1.0, 2.0, 2.0, 4.0].chunks(2)));
+        assert!(!system.factor([1.0, f64::NAN, 2.0, 4.0].chunks(2)));
     }
 }

@@ -123,7 +123,7 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     for (i, on) in contacts.iter().enumerate() {
         cells.heights(several.panel_set(i), [on.left, on.centre(), on.right])?;
     }
-    balanced(kappa, found, &several, &system, doubt)?;
+    balanced(kappa, found, &several, &mut system, doubt)?;
     let steepest = slopes.iter().flatten().fold(T::zero(), |most: T, slope| most.max(slope.abs()));
     let rises = |on| rises_over(&several.panel_set(0).panels, on, share * steepest);
     let is_plain = contacts.len() == 1 && rises(contacts[0]);
@@ -281,7 +281,6 @@ mod tests {
     use super::*;
     use crate::Panels;
     use crate::gap::Shape;
-    use crate::numerics::LinearSystem;
     use crate::profile::{Curve, CurvePoint, Flat};
     use crate::quadrature::panels;
     use crate::search::Newton as Inversion;
@@ -303,7 +302,7 @@ mod tests {
         let (kappa, ends, corners) = (FRAC_PI_2, Ends::from(gap.range()), Ends::both(false));
         let mut solver = crate::quadrature::Quadrature::<f64>::integrator(&Panels::FULL)?;
         let several = panels::several_mut(&mut *solver).unwrap();
-        let (mut system, mut linear, mut steps) = (System::new(), LinearSystem::new(), Vec::new());
+        let (mut system, mut steps) = (System::new(), Vec::new());
         let d = (LOAD / PI).sqrt();
         let [from, to] = [(1.0 - d).sqrt(), (1.0 + d).sqrt()];
         let mut limits = [-to, -from, from, to];
@@ -312,8 +311,8 @@ mod tests {
             let on = [Interval { left: one, right: two }, Interval { left: three, right: four }];
             several.set(&gap, &on, corners, ends, false)?;
             several.system(LOAD / kappa, &mut system);
-            assert!(linear.factor(&system.jacobian, 4));
-            linear.solve(&system.residual, &mut steps);
+            assert!(system.factor());
+            system.step(&mut steps);
             for (limit, step) in limits.iter_mut().zip(&steps) {
                 *limit -= step.clamp(-0.02, 0.02);
             }

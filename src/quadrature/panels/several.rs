@@ -48,6 +48,7 @@ mod exterior;
 mod load_response;
 mod one_of_several;
 mod pressure;
+mod system;
 mod weight;
 
 use super::cauchy_transform::CauchyTransform;
@@ -55,10 +56,10 @@ use super::panel_set::PanelSet;
 use crate::gap::{Cost, Gap};
 use crate::numerics::{Combine, FarField};
 use crate::{ContactError, Ends, Interval, Real, Side};
-pub(crate) use conditions::System;
 pub(crate) use load_response::LoadResponse;
 use one_of_several::OneOfSeveral;
 use std::ops::Range;
+pub(crate) use system::System;
 use weight::Weight;
 
 /// Least half of a gap, in half-widths of the contact next to it, for a trial.

@@ -1,6 +1,5 @@
 //! Check of the limits by the conditions at the edges.
 
-use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
 use crate::{ContactError, Real, Side, SolveError};
@@ -12,24 +11,20 @@ pub(super) fn balanced<T: Real>(
     kappa: T,
     found: &ContactState<T>,
     cells: &Several<T>,
-    system: &System<T>,
+    system: &mut System<T>,
     doubt: T,
 ) -> Result<(), ContactError<T>> {
-    if system.jacobian.is_empty() {
-        return Ok(());
-    }
     let n = system.residual.len();
-    let mut linear = LinearSystem::new();
     let (mut steps, mut open) = (Vec::new(), vec![T::zero(); n]);
-    if linear.factor(&system.jacobian, n) {
+    if system.factor() {
         let mut unit = vec![T::zero(); n];
-        for (k, &error) in system.open.iter().enumerate() {
+        for k in 0..n {
             unit.fill(T::zero());
-            unit[k] = error;
-            linear.solve(&unit, &mut steps);
+            unit[k] = system.open[k];
+            system.solve(&unit, &mut steps);
             open.iter_mut().zip(&steps).for_each(|(open, step)| *open += step.abs());
         }
-        linear.solve(&system.residual, &mut steps);
+        system.step(&mut steps);
     } else {
         // Infinite steps exceed any tolerance.
         steps.resize(n, T::one() / T::zero());

@@ -15,7 +15,6 @@ mod widths;
 use super::super::single_contact::MAX_DOUBT;
 use super::{Progress, Stop};
 use crate::gap::Gap;
-use crate::numerics::LinearSystem;
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -97,7 +96,6 @@ pub(in super::super) struct NewtonSeveral<T> {
     /// Widths cut in this step.
     widths: Vec<Width>,
     system: System<T>,
-    linear: LinearSystem<T>,
     step: Vec<T>,
     /// Steps of all limits.
     moves: Vec<T>,
@@ -113,7 +111,7 @@ impl<T: Real> NewtonSeveral<T> {
     pub fn new() -> Self {
         let (held, progress, passed) = (Ends::both(false), Progress::new(), None);
         let [errors, step, moves, unit, open] = std::array::from_fn(|_| Vec::new());
-        let (system, linear) = (System::new(), LinearSystem::new());
+        let system = System::new();
         let (on, order, tilt, load) = (Vec::new(), Vec::new(), T::zero(), T::zero());
         let (cut, widths) = (Vec::new(), Vec::new());
         Self {
@@ -128,7 +126,6 @@ impl<T: Real> NewtonSeveral<T> {
             passed,
             widths,
             system,
-            linear,
             step,
             moves,
             order,
@@ -218,15 +215,14 @@ impl<T: Real> NewtonSeveral<T> {
             self.cut[2 * i + 1] = MAX_CUT;
             return Ok(Err(Stop::Gone));
         }
-        if !self.linear.factor(&self.system.jacobian, self.system.residual.len()) {
+        if !self.system.factor() {
             return Ok(Err(Stop::Failed));
         }
-        self.linear.solve(&self.system.residual, &mut self.step);
+        self.system.step(&mut self.step);
         self.moves.clear();
         self.moves.resize(2 * self.on.len(), T::zero());
-        let free = self.free();
-        for (moves, &step) in self.moves[free].iter_mut().zip(&self.step) {
-            *moves = -step;
+        for i in self.free() {
+            self.moves[i] = -self.step[i - self.system.free.start];
         }
         Ok(Ok(()))
     }
@@ -358,7 +354,7 @@ impl<T: Real> NewtonSeveral<T> {
     fn size(&self) -> T {
         let (half, last) = (T::of(0.5), self.moves.len() - 1);
         let half_width = |i: Width| half * self.width(i);
-        let shares = self.free().zip(&self.step).map(|(i, step)| {
+        let shares = self.system.free.clone().zip(&self.step).map(|(i, step)| {
             let beside = [i.checked_sub(1), (i < last).then_some(i)].into_iter().flatten();
             step.abs() / beside.map(half_width).reduce(T::min).unwrap_or(T::one())
         });
@@ -374,7 +370,7 @@ impl<T: Real> NewtonSeveral<T> {
     /// Estimates the errors of the limits, from the uncertainty of the equations and rounding.
     /// Conditions far apart are taken together: a limit feels the nearest.
     fn estimate(&mut self) {
-        let n = self.step.len();
+        let n = self.system.open.len();
         self.open.clear();
         self.open.resize(n, T::zero());
         for first in 0..n.min(APART) {
@@ -382,14 +378,14 @@ impl<T: Real> NewtonSeveral<T> {
             self.unit.resize(n, T::zero());
             let each = self.unit.iter_mut().zip(&self.system.open).skip(first).step_by(APART);
             each.for_each(|(unit, &error)| *unit = error);
-            self.linear.solve(&self.unit, &mut self.step);
+            self.system.solve(&self.unit, &mut self.step);
             for (open, step) in self.open.iter_mut().zip(&self.step) {
                 *open += step.abs();
             }
         }
         self.errors.clear();
         self.errors.resize(2 * self.on.len(), T::zero());
-        for (i, &open) in self.free().zip(&self.open) {
+        for (i, &open) in self.system.free.clone().zip(&self.open) {
             let on = self.on[i / 2];
             let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
             self.errors[i] = T::of(4.0) * (open + rounding) / on.half_width();

@@ -2,10 +2,10 @@
 
 use super::Several;
 use super::one_of_several::OneOfSeveral;
+use super::system::{Besides, Poles, System};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real, Side};
-use std::ops::Range;
 
 /// Longest span in a gap for one Gauss rule, in the variable t of `x = β + 2 L sinh²(t/2)`: the
 /// next singularity lies at least a third as far beyond its end.
@@ -14,88 +14,53 @@ const MAX_GAUSS_SPAN: f64 = 2.0;
 /// Limit on the number of such spans: more than any gap and contact of finite widths have.
 const MAX_STRETCHES: usize = 1000;
 
-/// Conditions on the free limits, from left to right, linearised.
-#[derive(Clone)]
-pub(crate) struct System<T> {
-    /// Residual of each condition.
-    pub residual: Vec<T>,
-    /// Uncertainty of each residual, by quadrature and rounding.
-    pub open: Vec<T>,
-    /// Derivatives by the limits, a row for each condition.
-    pub jacobian: Vec<T>,
-    /// Gap so narrow that the rounding of the heights moves it by more than its width.
-    pub lost: Option<usize>,
-    /// Row of the load condition.
-    pub load_row: usize,
-    /// Limits, from left to right.
-    pub(super) limits: Vec<T>,
-    /// V at the limits, signed as where the pressure next to them is positive, and V at the zeros
-    /// of p.
-    pub(super) at_ends: Vec<T>,
-    at_zeros: Vec<T>,
-    /// Parts of V by the contacts far from each gap.
-    far: FarField<T>,
-    /// Integral `∫ S/p dx` over the last gap, if that has no zero of p.
-    over_last: T,
-    /// Integrals `∫ S/p_k dx/(x - e)` over a gap, for all limits e.
-    sums: Vec<T>,
-}
-
-impl<T: Real> System<T> {
-    pub fn new() -> Self {
-        let [residual, open, jacobian, limits, at_ends, at_zeros, sums] = Default::default();
-        let (lost, load_row, over_last) = (None, 0, T::zero());
-        let far = FarField::new(Combine::Sum);
-        Self {
-            residual,
-            open,
-            jacobian,
-            lost,
-            load_row,
-            limits,
-            at_ends,
-            at_zeros,
-            far,
-            over_last,
-            sums,
-        }
-    }
-
-    /// Adds a condition: its residual, its uncertainty, and its derivative by each free limit.
-    fn add(&mut self, value: T, open: T, free: Range<usize>, by: impl Fn(&Self, usize) -> T) {
-        self.residual.push(value);
-        self.open.push(open);
-        for i in free {
-            self.jacobian.push(by(self, i));
-        }
-    }
-}
-
 impl<T: Real> Several<T> {
     /// Sets up the conditions for a load, given as F/κ.
     pub fn system(&self, load: T, system: &mut System<T>) {
-        let System { residual, open, jacobian, limits, at_ends, at_zeros, .. } = system;
-        for known in [residual, open, jacobian, limits, at_ends, at_zeros] {
-            known.clear();
-        }
-        (system.over_last, system.lost) = (T::zero(), None);
-        system.limits.extend(self.contacts().iter().flat_map(|on| [on.left, on.right]));
+        (system.over_last, system.lost, system.besides) = (T::zero(), None, None);
+        system.free = self.free();
         let contacts = self.contacts();
         let gap = |pair: &[Interval<T>]| Interval { left: pair[0].right, right: pair[1].left };
         let part = |k: usize, x: T| self.parts[k].seen_from(x);
         system.far.set(contacts, contacts.windows(2).map(gap), &part);
+        let System { residual, open, limits, at_ends, at_zeros, slopes, .. } = system;
+        for known in [residual, open, limits, at_ends, at_zeros, slopes] {
+            known.clear();
+        }
         for (i, on) in contacts.iter().enumerate() {
-            system.at_ends.extend(Side::BOTH.map(|side| {
+            for side in Side::BOTH {
+                let (x, weight) = (on[side], self.weight.on_contact(i, on[side]));
                 let size = self.at_end(&system.far, i, side).abs();
-                size * self.weight.on_contact(i, on[side]).signum()
-            }));
+                system.limits.push(x);
+                system.at_ends.push(size * weight.signum());
+                system.slopes.push((x - on[side.other()]) / (weight * weight));
+            }
         }
         let zeros = self.weight.zeros().iter().enumerate();
         system.at_zeros.extend(zeros.map(|(k, &x)| self.in_gap(&system.far, k, x, None)));
+        self.poles(&mut system.poles);
         self.balance(load, system);
         for k in 0..self.count - 1 {
             self.close(k, system);
         }
+    }
+
+    /// Sets the poles of the step.
+    fn poles(&self, poles: &mut Poles<T>) {
+        let (corners, zeros) = (self.corners(), self.weight.zeros());
+        let hull = self.hull();
+        poles.at.clear();
+        poles.at.extend_from_slice(zeros);
+        poles
+            .at
+            .extend(Side::BOTH.into_iter().filter(|&side| corners[side]).map(|side| hull[side]));
+        poles.squares.clear();
+        poles.squares.extend(zeros.iter().zip(self.contacts().windows(2)).enumerate().map(
+            |(k, (&zero, on))| {
+                self.weight.in_gap(k, zero, [zero - on[0].right, on[1].left - zero]).powi(2)
+            },
+        ));
+        poles.centre = self.has_no_corners().then(|| hull.plain().centre());
     }
 
     /// Returns V at a place in a gap; near contact `near`, given the distance from it.
@@ -117,37 +82,32 @@ impl<T: Real> Several<T> {
 
     /// Adds the balance conditions and the load condition.
     fn balance(&self, load: T, system: &mut System<T>) {
-        let (one, half, pi) = (T::one(), T::of(0.5), T::pi());
-        let (hull, free, no_corners) = (self.hull(), self.free(), self.has_no_corners());
-        let centre = hull.plain().centre();
+        let (one, pi) = (T::one(), T::pi());
         let moments =
             |of: &dyn Fn(T, &OneOfSeveral<T>) -> T| self.parts().iter().fold(T::zero(), of);
         let total = pi * moments(&|sum, part| sum + part.moments.m0);
         for (k, &x) in self.weight.zeros().iter().enumerate() {
-            let value = system.at_zeros[k];
             let share = |on: Interval<T>| one / (x - on.right).abs().min((x - on.left).abs());
-            system.add(value, self.moments_error(share), free.clone(), |known, i| {
-                half * known.at_ends[i] / (known.limits[i] - x)
-            });
+            system.residual.push(system.at_zeros[k]);
+            system.open.push(self.moments_error(share));
         }
-        let mut borne = total / pi;
-        if no_corners {
+        let (mut borne, mut by_total) = (total / pi, T::zero());
+        if let Some(centre) = system.poles.centre {
             borne = moments(&|sum, OneOfSeveral { on, moments, .. }| {
                 sum + (on.centre() - centre) * moments.m0 + on.half_width() * moments.m1
             });
-            let error = self.moments_error(|_| one);
-            system.add(total, error, free.clone(), |known, i| half * known.at_ends[i]);
+            by_total = -T::of(2.0) * self.afar(centre)[0] / pi;
+            system.residual.push(total);
+            system.open.push(self.moments_error(|_| one));
         }
         system.load_row = system.residual.len();
-        let error = self.moments_error(|on| match no_corners {
-            true => (on.left - centre).abs().max((on.right - centre).abs()),
-            false => one,
+        let error = self.moments_error(|on| match system.poles.centre {
+            Some(centre) => (on.left - centre).abs().max((on.right - centre).abs()),
+            None => one,
         });
-        system.add(borne - load, error / pi, free, |known, i| {
-            let value = known.at_ends[i];
-            let arm = if no_corners { known.limits[i] - centre } else { one };
-            half * arm * value / pi
-        });
+        system.residual.push(borne - load);
+        system.open.push(error / pi);
+        system.start(by_total);
     }
 
     /// Adds the condition that a gap closes at both ends.
@@ -155,28 +115,28 @@ impl<T: Real> Several<T> {
         let (zero, pi) = (T::zero(), T::pi());
         let [left, right] = [&self.parts[k], &self.parts[k + 1]];
         let width = right.on.left - left.on.right;
-        let [mut closed, mut size, mut over] = [zero; 3];
-        let mut sums = std::mem::take(&mut system.sums);
-        sums.clear();
-        sums.resize(2 * self.count, zero);
-        self.through_gap(k, &system.far, |x, [from_left, to_right], value, scale| {
+        let own = self.weight.zeros().get(k).copied();
+        let [mut closed, mut size, mut over, mut by_own] = [zero; 4];
+        // The integrals ∫ S/p_k dx/(x - e) for the two limits at the ends.
+        let mut by_ends = [zero; 2];
+        system.start_gap();
+        let far = std::mem::replace(&mut system.far, FarField::new(Combine::Sum));
+        self.through_gap(k, &far, |x, [from_left, to_right], value, root, dx| {
+            let scale = root * dx;
             let share = scale * self.without_zero(k, system, x, value);
             closed -= share / pi;
             size += share.abs() / pi;
             over += scale;
-            let mut add = |ends: Range<usize>| {
-                for (sum, &end) in sums[ends.clone()].iter_mut().zip(&system.limits[ends]) {
-                    *sum += scale / (x - end);
-                }
-            };
-            add(0..2 * k + 1);
-            add(2 * k + 3..2 * self.count);
-            sums[2 * k + 1] += scale / from_left;
-            sums[2 * k + 2] -= scale / to_right;
+            by_ends[0] += scale / from_left;
+            by_ends[1] -= scale / to_right;
+            let away = own.map_or(T::one(), |own| x - own);
+            by_own -= scale / away / pi;
+            system.add(x, -away * dx / (root * pi));
         });
-        system.sums = sums;
-        if k == self.weight.zeros().len() {
-            system.over_last = over;
+        system.far = far;
+        match system.by_own_zero(k) {
+            Some(change) => *change += by_own,
+            None => system.over_last = over,
         }
         let [from, to] = [left.height(left.on.right), right.height(right.on.left)];
         let heights = left.height_size(from) + right.height_size(to);
@@ -186,26 +146,24 @@ impl<T: Real> Several<T> {
         let known = (open.abs() - rounding).max(zero) * open.signum();
         let square = left.on.half_width().min(right.on.half_width()).powi(2);
         let by_width = (known + known) / width * square / (square + width * width);
-        let by_limit = |known: &System<T>, i: usize| {
-            let zero = self.weight.zeros().get(k);
-            let away = zero.map_or(T::one(), |&zero| known.limits[i] - zero);
-            known.at_ends[i] / away / (pi + pi) * known.sums[i]
-        };
-        let ends = [2 * k + 1, 2 * k + 2];
-        let [by_left, by_right] = ends.map(|i| by_limit(system, i).abs());
-        if (by_left + by_right) * width <= rounding {
+        let mut by_limits = zero;
+        for (end, sign) in [(0, T::one()), (1, -T::one())] {
+            let i = 2 * k + 1 + end;
+            let away = own.map_or(T::one(), |own| system.limits[i] - own);
+            by_limits += (system.at_ends[i] / away / (pi + pi) * by_ends[end]).abs();
+            let share = -(by_width + by_width) / (system.slopes[i] * system.at_ends[i]);
+            system.add(system.limits[i], sign * share);
+        }
+        if by_limits * width <= rounding {
             system.lost.get_or_insert(k);
         }
-        system.add(open, rounding, self.free(), |known, i| match i {
-            i if i == ends[0] => by_limit(known, i) + by_width,
-            i if i == ends[1] => by_limit(known, i) - by_width,
-            i => by_limit(known, i),
-        });
+        system.residual.push(open);
+        system.open.push(rounding);
     }
 
     /// Shows the nodes of rules from both ends of a gap to its middle: the place, its distances to
-    /// the ends, V, and `S/p dx` without the zero of p.
-    fn through_gap(&self, k: usize, far: &FarField<T>, mut show: impl FnMut(T, [T; 2], T, T)) {
+    /// the ends, V, `S/p` without the zero of p, and dx.
+    fn through_gap(&self, k: usize, far: &FarField<T>, mut show: impl FnMut(T, [T; 2], T, T, T)) {
         let (one, half, rule) = (T::one(), T::of(0.5), GaussLegendre::sixteen());
         let [left, right] = [k, k + 1].map(|i| self.parts[i].on);
         let width = right.left - left.right;
@@ -230,7 +188,7 @@ impl<T: Real> Several<T> {
                     if near > k {
                         distances.reverse();
                     }
-                    show(x, distances, value, self.weight.in_gap(k, x, distances) * dx);
+                    show(x, distances, value, self.weight.in_gap(k, x, distances), dx);
                 }
             }
         }
@@ -288,16 +246,16 @@ impl<T: Real> Several<T> {
         [first, second + half * first * first]
     }
 
-    /// Makes the load an unknown, with the last column, in place of the first or the last free
-    /// limit, which stays where it is.
+    /// Makes the load an unknown, in place of the first or the last free limit, which stays where it
+    /// is.
     pub fn by_load(&self, side: Side, system: &mut System<T>) {
-        let columns = system.residual.len();
-        for (i, row) in system.jacobian.chunks_mut(columns).enumerate() {
-            if side == Side::Left {
-                row.rotate_left(1);
-            }
-            row[columns - 1] = if i == system.load_row { -T::one() } else { T::zero() };
-        }
+        let [zero, one] = [T::zero(), T::one()];
+        let mut others = vec![zero; system.residual.len()];
+        others[system.load_row] = -one;
+        let mut by_limits = vec![zero; system.free.len()];
+        let last = by_limits.len() - 1;
+        by_limits[if side == Side::Left { 0 } else { last }] = one;
+        system.besides = Some(Besides { by_limits, by_unknown: zero, others, steps: Vec::new() });
     }
 
     /// Adds one unknown, the tilt of the bodies, and one condition: the load acts at a given place.
@@ -307,38 +265,32 @@ impl<T: Real> Several<T> {
     /// by a limit e: (e - x₀)² V(e)/2π, with corners (e - x₀) V(e)/2π
     /// ```
     ///
-    /// All conditions are linear in g, so the column of the tilt holds their values for g = 1 and a
-    /// gap that rises by its width: there `V = -π p/S` off the contacts, plus π with corners.
+    /// All conditions are linear in g, so their derivatives by the tilt are their values for g = 1
+    /// and a gap that rises by its width: there `V = -π p/S` off the contacts, plus π with corners.
     pub fn turning(&self, load: T, at: T, system: &mut System<T>) {
         let (zero, half, pi) = (T::zero(), T::of(0.5), T::pi());
         let (hull, no_corners) = (self.hull(), self.has_no_corners());
-        let (rows, columns) =
-            (system.residual.len(), system.jacobian.len() / system.residual.len());
         let zeros = self.weight.zeros().len();
-        for row in (0..rows).rev() {
-            let by_tilt = if row == system.load_row {
-                self.afar(hull.plain().centre())[0]
-            } else if row < system.load_row {
-                if no_corners && row < zeros { zero } else { pi }
-            } else if row + 1 == rows {
-                -system.over_last
-            } else {
-                zero
-            };
-            system.jacobian.insert((row + 1) * columns, by_tilt);
-        }
+        let mut others = vec![zero; system.residual.len()];
+        *others.last_mut().unwrap_or(&mut T::zero()) = -system.over_last;
+        let balance = if no_corners { zeros..zeros + 1 } else { 0..zeros };
+        others[balance].fill(pi);
+        others[system.load_row] = self.afar(hull.plain().centre())[0];
         let powers = self.powers(at);
-        let [first, second] = self.afar(at);
+        let [first, by_unknown] = self.afar(at);
         let reach = (hull.left - at).abs().max((hull.right - at).abs());
         let (reach, borne) = match no_corners {
             true => (reach * reach, powers[1]),
             false => (reach, powers[0]),
         };
         let error = self.parts().iter().fold(zero, |sum, part| sum + part.moments.error) * reach;
-        system.add(borne - first * load, error, self.free(), |known, i| {
-            let away = known.limits[i] - at;
-            half * if no_corners { away * away } else { away } * known.at_ends[i] / pi
-        });
-        system.jacobian.push(second);
+        system.residual.push(borne - first * load);
+        system.open.push(error);
+        let by_limit = |i: usize| {
+            let away = system.limits[i] - at;
+            half * if no_corners { away * away } else { away } * system.at_ends[i] / pi
+        };
+        let by_limits = system.free.clone().map(by_limit).collect();
+        system.besides = Some(Besides { by_limits, by_unknown, others, steps: Vec::new() });
     }
 }

@@ -13,7 +13,6 @@
 
 use super::weight::Weight;
 use super::{Several, System};
-use crate::numerics::LinearSystem;
 use crate::{Ends, Interval, Real, Side};
 
 /// Pressure of a flat punch on several contacts under a unit load.
@@ -28,17 +27,16 @@ impl<T: Real> Several<T> {
     /// Returns the derivatives of all limits by F/κ, left and right of each contact, and the
     /// derivative of the pressure by F; `None` where the limits do not follow the load.
     pub fn rates(&self, load: T) -> Option<(Vec<Ends<T>>, LoadResponse<T>)> {
-        let (mut system, mut linear) = (System::new(), LinearSystem::new());
+        let mut system = System::new();
         self.system(load, &mut system);
-        let n = system.residual.len();
-        if !linear.factor(&system.jacobian, n) {
+        if !system.factor() {
             return None;
         }
-        let (mut unit, mut step) = (vec![T::zero(); n], Vec::new());
+        let (mut unit, mut step) = (vec![T::zero(); system.residual.len()], Vec::new());
         unit[system.load_row] = T::one();
-        linear.solve(&unit, &mut step);
+        system.solve(&unit, &mut step);
         let mut rates = vec![Ends::both(T::zero()); self.count];
-        let mut terms = Vec::with_capacity(n);
+        let mut terms = Vec::with_capacity(step.len());
         for (i, rate) in self.free().zip(step) {
             if !rate.is_finite() {
                 return None;

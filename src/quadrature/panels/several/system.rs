@@ -1,0 +1,239 @@
+//! The step of Newton's method: all limits from one unknown for each contact.
+//!
+//! A step δ of the limits changes V by `W(x) = -Σ ω_e/(x - e)`, with `ω_e = V(e) δ_e/2`. With
+//! `r = S²/p²`, the function `Q = r W` is finite at the limits. Its poles are the zeros of p, where
+//! the balance makes W known, and the corners z:
+//!
+//! ```text
+//! Q(x) = Σ_k C_k/(x - ν_k) - Σ_k V(ν_k) A_k/(x - ν_k)² + q(x)      A_k = S²/p_k² at ν_k
+//! q(x) = C + D (x - c), D = ∫ w p g ds                              without corners
+//! q(x) = Σ C_z/(x - z)                                              with corners
+//! δ_e = -2 Q(e)/(r'(e) V(e))
+//! ```
+//!
+//! So every Q meets all conditions of balance. Its N constants follow from the N others, which it
+//! changes by
+//!
+//! ```text
+//! of a gap:     -(1/π) ∫ (p/S Q + S/p V(ν_k)) dx
+//! of the load:  -(C + 2 ρ₁ D)/π without corners, with ρ₁ of Several::afar, else -Σ C/π
+//! ```
+//!
+//! A gap acts on another by the inverse square of their distance: next to its pole, `p/S` is odd.
+
+use crate::Real;
+use crate::numerics::{Combine, FarField, LinearSystem, dot};
+use std::ops::Range;
+
+/// Conditions on the free limits, from left to right, linearised.
+#[derive(Clone)]
+pub(crate) struct System<T> {
+    /// Residual of each condition: balance, load, gaps, and the condition besides.
+    pub residual: Vec<T>,
+    /// Uncertainty of each residual, by quadrature and rounding.
+    pub open: Vec<T>,
+    /// Gap so narrow that the rounding of the heights moves it by more than its width.
+    pub lost: Option<usize>,
+    /// Number of the load condition, after those of balance.
+    pub load_row: usize,
+    /// Numbers of the free limits.
+    pub free: Range<usize>,
+    /// Limits, from left to right.
+    pub(super) limits: Vec<T>,
+    /// V at the limits, signed as where the pressure next to them is positive, and V at the zeros
+    /// of p.
+    pub(super) at_ends: Vec<T>,
+    pub(super) at_zeros: Vec<T>,
+    /// Slopes of r at the limits.
+    pub(super) slopes: Vec<T>,
+    /// Parts of V by the contacts far from each gap.
+    pub(super) far: FarField<T>,
+    /// Integral `∫ S/p dx` over the last gap, if that has no zero of p.
+    pub(super) over_last: T,
+    pub(super) poles: Poles<T>,
+    /// Changes of the load and of each gap, a row for each: by the constants, by V at the zeros,
+    /// and by D.
+    rows: Vec<T>,
+    pub(super) besides: Option<Besides<T>>,
+    linear: LinearSystem<T>,
+    /// Room for a right-hand side, for the constants, and for Q at a limit.
+    right: Vec<T>,
+    known: Vec<T>,
+    row: Vec<T>,
+}
+
+/// Poles of Q.
+#[derive(Clone)]
+pub(super) struct Poles<T> {
+    /// Zeros of p, then corners.
+    pub at: Vec<T>,
+    /// `A_k` of each zero.
+    pub squares: Vec<T>,
+    /// Center c; `None` with corners.
+    pub centre: Option<T>,
+}
+
+/// Condition for an unknown besides the limits.
+#[derive(Clone)]
+pub(super) struct Besides<T> {
+    /// Derivatives of the condition by the limits and by the unknown.
+    pub by_limits: Vec<T>,
+    pub by_unknown: T,
+    /// Derivatives of all other conditions by the unknown, and the steps that make up for them.
+    pub others: Vec<T>,
+    pub steps: Vec<T>,
+}
+
+impl<T: Real> Poles<T> {
+    /// Returns the number of constants.
+    fn count(&self) -> usize {
+        self.at.len() + usize::from(self.centre.is_some())
+    }
+
+    /// Adds a share of Q at a place to a row.
+    fn add(&self, x: T, share: T, row: &mut [T]) {
+        let (by_constants, by_known) = row.split_at_mut(self.count());
+        let zeros = self.at.iter().zip(&self.squares);
+        for ((by_constant, by_zero), (&at, &square)) in
+            by_constants.iter_mut().zip(by_known.iter_mut()).zip(zeros)
+        {
+            let away = T::one() / (x - at);
+            let by_pole = share * away;
+            *by_constant += by_pole;
+            *by_zero -= square * by_pole * away;
+        }
+        let corners = self.squares.len()..self.at.len();
+        for (by_constant, &at) in by_constants[corners.clone()].iter_mut().zip(&self.at[corners]) {
+            *by_constant += share / (x - at);
+        }
+        if let (Some(centre), [.., by_constant], [.., by_total]) =
+            (self.centre, by_constants, by_known)
+        {
+            *by_constant += share;
+            *by_total += share * (x - centre);
+        }
+    }
+}
+
+impl<T: Real> System<T> {
+    pub fn new() -> Self {
+        let [residual, open, limits, at_ends, at_zeros, slopes] = Default::default();
+        let [at, squares, rows, right, known, row] = Default::default();
+        let (far, linear) = (FarField::new(Combine::Sum), LinearSystem::new());
+        Self {
+            residual,
+            open,
+            lost: None,
+            load_row: 0,
+            free: 0..0,
+            limits,
+            at_ends,
+            at_zeros,
+            slopes,
+            far,
+            over_last: T::zero(),
+            poles: Poles { at, squares, centre: None },
+            rows,
+            besides: None,
+            linear,
+            right,
+            known,
+            row,
+        }
+    }
+
+    /// Starts the rows with that of the load, given its change by D.
+    pub(super) fn start(&mut self, by_total: T) {
+        let (n, per_pi, zero) = (self.poles.count(), -T::one() / T::pi(), T::zero());
+        self.rows.clear();
+        match self.poles.centre {
+            Some(_) => {
+                self.rows.resize(n - 1 + self.load_row, zero);
+                self.rows.insert(n - 1, per_pi);
+                self.rows[n - 1 + self.load_row] = by_total;
+            }
+            None => {
+                self.rows.resize(n, per_pi);
+                self.rows.resize(n + self.load_row, zero);
+            }
+        }
+    }
+
+    /// Starts the row of the next gap.
+    pub(super) fn start_gap(&mut self) {
+        self.rows.resize(self.rows.len() + self.stride(), T::zero());
+    }
+
+    /// Adds a share of Q at a place to the last row.
+    pub(super) fn add(&mut self, x: T, share: T) {
+        let first = self.rows.len() - self.stride();
+        self.poles.add(x, share, &mut self.rows[first..]);
+    }
+
+    /// Returns the change of the gap in the last row by V at the zero in it, of this number.
+    pub(super) fn by_own_zero(&mut self, zero: usize) -> Option<&mut T> {
+        let first = self.rows.len() - self.load_row;
+        self.poles.squares.get(zero).map(|_| &mut self.rows[first + zero])
+    }
+
+    /// Returns the length of a row.
+    fn stride(&self) -> usize {
+        self.poles.count() + self.load_row
+    }
+
+    /// Prepares for steps; `false` if the limits do not follow from the conditions.
+    pub fn factor(&mut self) -> bool {
+        let (n, stride) = (self.poles.count(), self.stride());
+        if self.rows.len() != n * stride {
+            return false;
+        }
+        if !self.linear.factor(self.rows.chunks_exact(stride).map(|row| &row[..n])) {
+            return false;
+        }
+        if let Some(mut besides) = self.besides.take() {
+            self.limits(&besides.others, &mut besides.steps);
+            self.besides = Some(besides);
+        }
+        true
+    }
+
+    /// Computes the step against these values of the conditions: of the free limits, and of the
+    /// unknown besides.
+    pub fn solve(&mut self, values: &[T], step: &mut Vec<T>) {
+        self.limits(values, step);
+        if let Some(Besides { by_limits, by_unknown, steps, .. }) = &self.besides {
+            let value = values.get(self.load_row + self.poles.count()).copied();
+            let open = value.unwrap_or(T::zero()) - dot(by_limits, step);
+            let unknown = open / (*by_unknown - dot(by_limits, steps));
+            step.iter_mut().zip(steps).for_each(|(step, &by)| *step -= unknown * by);
+            step.push(unknown);
+        }
+    }
+
+    /// Computes the step against the residuals.
+    pub fn step(&mut self, step: &mut Vec<T>) {
+        let residual = std::mem::take(&mut self.residual);
+        self.solve(&residual, step);
+        self.residual = residual;
+    }
+
+    /// Computes the step of the free limits, with no unknown besides.
+    fn limits(&mut self, values: &[T], step: &mut Vec<T>) {
+        let (n, stride) = (self.poles.count(), self.stride());
+        let (balance, others) = values.split_at(self.load_row);
+        let rows = self.rows.chunks_exact(stride).zip(others);
+        self.right.clear();
+        self.right.extend(rows.map(|(row, &value)| value + dot(&row[n..], balance)));
+        // The constants with the sign of a step, so the known part of Q, too.
+        self.linear.solve(&self.right, &mut self.known);
+        self.known.extend(balance.iter().map(|&value| -value));
+        step.clear();
+        for i in self.free.clone() {
+            self.row.clear();
+            self.row.resize(stride, T::zero());
+            let share = -T::of(2.0) / (self.slopes[i] * self.at_ends[i]);
+            self.poles.add(self.limits[i], share, &mut self.row);
+            step.push(dot(&self.row, &self.known));
+        }
+    }
+}
