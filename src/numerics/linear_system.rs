@@ -32,7 +32,7 @@ impl<T: Real> LinearSystem<T> {
         self.scales.clear();
         for row in rows {
             let scale = row.iter().fold(zero, |max, a| max.max(a.abs())).component(0);
-            if !(scale > zero && scale.is_finite()) {
+            if !(row.len() == n && scale > zero && scale.is_finite()) {
                 return false;
             }
             self.scales.push(scale);

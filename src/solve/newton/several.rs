@@ -33,7 +33,7 @@ const MAX_CUT: i32 = 9;
 const LAST_TRIAL: f64 = 0.01;
 
 /// Number of conditions from one to the next whose uncertainties are taken together.
-const APART: usize = 64;
+const APART: usize = 16;
 
 /// Number of such steps after which a width goes together with another that is taken not to exist:
 /// it is 0.3⁶ of what it was.

@@ -3,8 +3,8 @@
 use super::Several;
 use super::one_of_several::OneOfSeveral;
 use super::system::{Besides, Poles, System};
+use crate::numerics::FarField;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real, Side};
 
 /// Longest span in a gap for one Gauss rule, in the variable t of `x = β + 2 L sinh²(t/2)`: the
@@ -23,8 +23,8 @@ impl<T: Real> Several<T> {
         let gap = |pair: &[Interval<T>]| Interval { left: pair[0].right, right: pair[1].left };
         let part = |k: usize, x: T| self.parts[k].seen_from(x);
         system.far.set(contacts, contacts.windows(2).map(gap), &part);
-        let System { residual, open, limits, at_ends, at_zeros, slopes, .. } = system;
-        for known in [residual, open, limits, at_ends, at_zeros, slopes] {
+        let System { residual, open, limits, at_ends, slopes, rows, .. } = system;
+        for known in [residual, open, limits, at_ends, slopes, rows] {
             known.clear();
         }
         for (i, on) in contacts.iter().enumerate() {
@@ -36,8 +36,6 @@ impl<T: Real> Several<T> {
                 system.slopes.push((x - on[side.other()]) / (weight * weight));
             }
         }
-        let zeros = self.weight.zeros().iter().enumerate();
-        system.at_zeros.extend(zeros.map(|(k, &x)| self.in_gap(&system.far, k, x, None)));
         self.poles(&mut system.poles);
         self.balance(load, system);
         for k in 0..self.count - 1 {
@@ -47,19 +45,16 @@ impl<T: Real> Several<T> {
 
     /// Sets the poles of the step.
     fn poles(&self, poles: &mut Poles<T>) {
-        let (corners, zeros) = (self.corners(), self.weight.zeros());
-        let hull = self.hull();
+        let (corners, hull, zeros) = (self.corners(), self.hull(), self.weight.zeros());
         poles.at.clear();
         poles.at.extend_from_slice(zeros);
-        poles
-            .at
-            .extend(Side::BOTH.into_iter().filter(|&side| corners[side]).map(|side| hull[side]));
+        let corners = Side::BOTH.into_iter().filter(|&side| corners[side]);
+        poles.at.extend(corners.map(|side| hull[side]));
         poles.squares.clear();
-        poles.squares.extend(zeros.iter().zip(self.contacts().windows(2)).enumerate().map(
-            |(k, (&zero, on))| {
-                self.weight.in_gap(k, zero, [zero - on[0].right, on[1].left - zero]).powi(2)
-            },
-        ));
+        let gaps = zeros.iter().zip(self.contacts().windows(2)).enumerate();
+        poles.squares.extend(gaps.map(|(k, (&x, on))| {
+            self.weight.in_gap(k, x, [x - on[0].right, on[1].left - x]).powi(2)
+        }));
         poles.centre = self.has_no_corners().then(|| hull.plain().centre());
     }
 
@@ -82,32 +77,30 @@ impl<T: Real> Several<T> {
 
     /// Adds the balance conditions and the load condition.
     fn balance(&self, load: T, system: &mut System<T>) {
-        let (one, pi) = (T::one(), T::pi());
-        let moments =
-            |of: &dyn Fn(T, &OneOfSeveral<T>) -> T| self.parts().iter().fold(T::zero(), of);
-        let total = pi * moments(&|sum, part| sum + part.moments.m0);
+        let (zero, one, pi) = (T::zero(), T::one(), T::pi());
         for (k, &x) in self.weight.zeros().iter().enumerate() {
             let share = |on: Interval<T>| one / (x - on.right).abs().min((x - on.left).abs());
-            system.residual.push(system.at_zeros[k]);
-            system.open.push(self.moments_error(share));
+            let value = self.in_gap(&system.far, k, x, None);
+            system.add(value, self.moments_error(share));
         }
-        let (mut borne, mut by_total) = (total / pi, T::zero());
-        if let Some(centre) = system.poles.centre {
-            borne = moments(&|sum, OneOfSeveral { on, moments, .. }| {
-                sum + (on.centre() - centre) * moments.m0 + on.half_width() * moments.m1
-            });
-            by_total = -T::of(2.0) * self.afar(centre)[0] / pi;
-            system.residual.push(total);
-            system.open.push(self.moments_error(|_| one));
-        }
+        let (total, n) = (self.sum(|part| part.moments.m0), system.poles.at.len());
+        let Some(centre) = system.poles.centre else {
+            system.load_row = system.residual.len();
+            system.rows.resize(n, -one / pi);
+            system.rows.resize(n + system.load_row, zero);
+            return system.add(total - load, self.moments_error(|_| one) / pi);
+        };
+        system.add(pi * total, self.moments_error(|_| one));
         system.load_row = system.residual.len();
-        let error = self.moments_error(|on| match system.poles.centre {
-            Some(centre) => (on.left - centre).abs().max((on.right - centre).abs()),
-            None => one,
+        system.rows.resize(n, zero);
+        system.rows.push(-one / pi);
+        system.rows.resize(2 * n + 1, zero);
+        system.rows.push(-T::of(2.0) * self.afar(centre)[0] / pi);
+        let borne = self.sum(|OneOfSeveral { on, moments, .. }| {
+            (on.centre() - centre) * moments.m0 + on.half_width() * moments.m1
         });
-        system.residual.push(borne - load);
-        system.open.push(error / pi);
-        system.start(by_total);
+        let reach = |on: Interval<T>| (on.left - centre).abs().max((on.right - centre).abs());
+        system.add(borne - load, self.moments_error(reach) / pi);
     }
 
     /// Adds the condition that a gap closes at both ends.
@@ -119,9 +112,10 @@ impl<T: Real> Several<T> {
         let [mut closed, mut size, mut over, mut by_own] = [zero; 4];
         // The integrals ∫ S/p_k dx/(x - e) for the two limits at the ends.
         let mut by_ends = [zero; 2];
-        system.start_gap();
-        let far = std::mem::replace(&mut system.far, FarField::new(Combine::Sum));
-        self.through_gap(k, &far, |x, [from_left, to_right], value, root, dx| {
+        let mut row = std::mem::take(&mut system.row);
+        row.clear();
+        row.resize(system.poles.count() + system.load_row, zero);
+        self.through_gap(k, &system.far, |x, [from_left, to_right], value, root, dx| {
             let scale = root * dx;
             let share = scale * self.without_zero(k, system, x, value);
             closed -= share / pi;
@@ -130,12 +124,11 @@ impl<T: Real> Several<T> {
             by_ends[0] += scale / from_left;
             by_ends[1] -= scale / to_right;
             let away = own.map_or(T::one(), |own| x - own);
-            by_own -= scale / away / pi;
-            system.add(x, -away * dx / (root * pi));
+            by_own -= scale / (away * pi);
+            system.poles.add(x, -away * dx / (root * pi), &mut row);
         });
-        system.far = far;
-        match system.by_own_zero(k) {
-            Some(change) => *change += by_own,
+        match own {
+            Some(_) => row[system.poles.count() + k] += by_own,
             None => system.over_last = over,
         }
         let [from, to] = [left.height(left.on.right), right.height(right.on.left)];
@@ -152,13 +145,14 @@ impl<T: Real> Several<T> {
             let away = own.map_or(T::one(), |own| system.limits[i] - own);
             by_limits += (system.at_ends[i] / away / (pi + pi) * by_ends[end]).abs();
             let share = -(by_width + by_width) / (system.slopes[i] * system.at_ends[i]);
-            system.add(system.limits[i], sign * share);
+            system.poles.add(system.limits[i], sign * share, &mut row);
         }
         if by_limits * width <= rounding {
             system.lost.get_or_insert(k);
         }
-        system.residual.push(open);
-        system.open.push(rounding);
+        system.rows.extend_from_slice(&row);
+        system.row = row;
+        system.add(open, rounding);
     }
 
     /// Shows the nodes of rules from both ends of a gap to its middle: the place, its distances to
@@ -198,13 +192,16 @@ impl<T: Real> Several<T> {
     /// that zero; V itself if the gap has no zero.
     pub(super) fn without_zero(&self, k: usize, system: &System<T>, x: T, value: T) -> T {
         let zero = self.weight.zeros().get(k);
-        zero.map_or(value, |&zero| (value - system.at_zeros[k]) / (x - zero))
+        zero.map_or(value, |&zero| (value - system.residual[k]) / (x - zero))
     }
 
     /// Returns π times the sum of the errors of all moments, each times its share.
     fn moments_error(&self, share: impl Fn(Interval<T>) -> T) -> T {
-        let add = |sum, part: &OneOfSeveral<T>| sum + T::pi() * part.moments.error * share(part.on);
-        self.parts().iter().fold(T::zero(), add)
+        T::pi() * self.sum(|part| part.moments.error * share(part.on))
+    }
+
+    fn sum(&self, of: impl Fn(&OneOfSeveral<T>) -> T) -> T {
+        self.parts().iter().fold(T::zero(), |sum, part| sum + of(part))
     }
 
     /// Returns the interval from the first limit to the last.
@@ -255,7 +252,7 @@ impl<T: Real> Several<T> {
         let mut by_limits = vec![zero; system.free.len()];
         let last = by_limits.len() - 1;
         by_limits[if side == Side::Left { 0 } else { last }] = one;
-        system.besides = Some(Besides { by_limits, by_unknown: zero, others, steps: Vec::new() });
+        system.besides = Some(Besides { by_limits, by_unknown: zero, others });
     }
 
     /// Adds one unknown, the tilt of the bodies, and one condition: the load acts at a given place.
@@ -283,14 +280,12 @@ impl<T: Real> Several<T> {
             true => (reach * reach, powers[1]),
             false => (reach, powers[0]),
         };
-        let error = self.parts().iter().fold(zero, |sum, part| sum + part.moments.error) * reach;
-        system.residual.push(borne - first * load);
-        system.open.push(error);
+        system.add(borne - first * load, self.sum(|part| part.moments.error) * reach);
         let by_limit = |i: usize| {
             let away = system.limits[i] - at;
             half * if no_corners { away * away } else { away } * system.at_ends[i] / pi
         };
         let by_limits = system.free.clone().map(by_limit).collect();
-        system.besides = Some(Besides { by_limits, by_unknown, others, steps: Vec::new() });
+        system.besides = Some(Besides { by_limits, by_unknown, others });
     }
 }

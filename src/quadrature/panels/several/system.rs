@@ -40,10 +40,8 @@ pub(crate) struct System<T> {
     pub free: Range<usize>,
     /// Limits, from left to right.
     pub(super) limits: Vec<T>,
-    /// V at the limits, signed as where the pressure next to them is positive, and V at the zeros
-    /// of p.
+    /// V at the limits, signed as where the pressure next to them is positive.
     pub(super) at_ends: Vec<T>,
-    pub(super) at_zeros: Vec<T>,
     /// Slopes of r at the limits.
     pub(super) slopes: Vec<T>,
     /// Parts of V by the contacts far from each gap.
@@ -53,13 +51,12 @@ pub(crate) struct System<T> {
     pub(super) poles: Poles<T>,
     /// Changes of the load and of each gap, a row for each: by the constants, by V at the zeros,
     /// and by D.
-    rows: Vec<T>,
+    pub(super) rows: Vec<T>,
     pub(super) besides: Option<Besides<T>>,
     linear: LinearSystem<T>,
-    /// Room for a right-hand side, for the constants, and for Q at a limit.
-    right: Vec<T>,
+    /// Room for a row, and for the constants and the known part of Q.
+    pub(super) row: Vec<T>,
     known: Vec<T>,
-    row: Vec<T>,
 }
 
 /// Poles of Q.
@@ -79,19 +76,18 @@ pub(super) struct Besides<T> {
     /// Derivatives of the condition by the limits and by the unknown.
     pub by_limits: Vec<T>,
     pub by_unknown: T,
-    /// Derivatives of all other conditions by the unknown, and the steps that make up for them.
+    /// Derivatives of all other conditions by the unknown; then the steps that make up for them.
     pub others: Vec<T>,
-    pub steps: Vec<T>,
 }
 
 impl<T: Real> Poles<T> {
     /// Returns the number of constants.
-    fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.at.len() + usize::from(self.centre.is_some())
     }
 
     /// Adds a share of Q at a place to a row.
-    fn add(&self, x: T, share: T, row: &mut [T]) {
+    pub fn add(&self, x: T, share: T, row: &mut [T]) {
         let (by_constants, by_known) = row.split_at_mut(self.count());
         let zeros = self.at.iter().zip(&self.squares);
         for ((by_constant, by_zero), (&at, &square)) in
@@ -117,8 +113,8 @@ impl<T: Real> Poles<T> {
 
 impl<T: Real> System<T> {
     pub fn new() -> Self {
-        let [residual, open, limits, at_ends, at_zeros, slopes] = Default::default();
-        let [at, squares, rows, right, known, row] = Default::default();
+        let [residual, open, limits, at_ends, slopes] = Default::default();
+        let [at, squares, rows, row, known] = Default::default();
         let (far, linear) = (FarField::new(Combine::Sum), LinearSystem::new());
         Self {
             residual,
@@ -128,7 +124,6 @@ impl<T: Real> System<T> {
             free: 0..0,
             limits,
             at_ends,
-            at_zeros,
             slopes,
             far,
             over_last: T::zero(),
@@ -136,104 +131,60 @@ impl<T: Real> System<T> {
             rows,
             besides: None,
             linear,
-            right,
-            known,
             row,
+            known,
         }
     }
 
-    /// Starts the rows with that of the load, given its change by D.
-    pub(super) fn start(&mut self, by_total: T) {
-        let (n, per_pi, zero) = (self.poles.count(), -T::one() / T::pi(), T::zero());
-        self.rows.clear();
-        match self.poles.centre {
-            Some(_) => {
-                self.rows.resize(n - 1 + self.load_row, zero);
-                self.rows.insert(n - 1, per_pi);
-                self.rows[n - 1 + self.load_row] = by_total;
-            }
-            None => {
-                self.rows.resize(n, per_pi);
-                self.rows.resize(n + self.load_row, zero);
-            }
-        }
-    }
-
-    /// Starts the row of the next gap.
-    pub(super) fn start_gap(&mut self) {
-        self.rows.resize(self.rows.len() + self.stride(), T::zero());
-    }
-
-    /// Adds a share of Q at a place to the last row.
-    pub(super) fn add(&mut self, x: T, share: T) {
-        let first = self.rows.len() - self.stride();
-        self.poles.add(x, share, &mut self.rows[first..]);
-    }
-
-    /// Returns the change of the gap in the last row by V at the zero in it, of this number.
-    pub(super) fn by_own_zero(&mut self, zero: usize) -> Option<&mut T> {
-        let first = self.rows.len() - self.load_row;
-        self.poles.squares.get(zero).map(|_| &mut self.rows[first + zero])
-    }
-
-    /// Returns the length of a row.
-    fn stride(&self) -> usize {
-        self.poles.count() + self.load_row
+    /// Adds a condition: its residual, and its uncertainty.
+    pub(super) fn add(&mut self, residual: T, open: T) {
+        self.residual.push(residual);
+        self.open.push(open);
     }
 
     /// Prepares for steps; `false` if the limits do not follow from the conditions.
     pub fn factor(&mut self) -> bool {
-        let (n, stride) = (self.poles.count(), self.stride());
-        if self.rows.len() != n * stride {
-            return false;
-        }
-        if !self.linear.factor(self.rows.chunks_exact(stride).map(|row| &row[..n])) {
-            return false;
-        }
-        if let Some(mut besides) = self.besides.take() {
-            self.limits(&besides.others, &mut besides.steps);
+        let (n, stride) = (self.poles.count(), self.poles.count() + self.load_row);
+        let is_regular = self.linear.factor(self.rows.chunks_exact(stride).map(|row| &row[..n]));
+        if let (true, Some(mut besides)) = (is_regular, self.besides.take()) {
+            let others = std::mem::take(&mut besides.others);
+            self.solve(&others, &mut besides.others);
             self.besides = Some(besides);
         }
-        true
+        is_regular
     }
 
-    /// Computes the step against these values of the conditions: of the free limits, and of the
-    /// unknown besides.
-    pub fn solve(&mut self, values: &[T], step: &mut Vec<T>) {
-        self.limits(values, step);
-        if let Some(Besides { by_limits, by_unknown, steps, .. }) = &self.besides {
-            let value = values.get(self.load_row + self.poles.count()).copied();
-            let open = value.unwrap_or(T::zero()) - dot(by_limits, step);
-            let unknown = open / (*by_unknown - dot(by_limits, steps));
-            step.iter_mut().zip(steps).for_each(|(step, &by)| *step -= unknown * by);
-            step.push(unknown);
-        }
-    }
-
-    /// Computes the step against the residuals.
+    /// Computes the step against the residuals: of the free limits, and of the unknown besides.
     pub fn step(&mut self, step: &mut Vec<T>) {
         let residual = std::mem::take(&mut self.residual);
         self.solve(&residual, step);
         self.residual = residual;
     }
 
-    /// Computes the step of the free limits, with no unknown besides.
-    fn limits(&mut self, values: &[T], step: &mut Vec<T>) {
-        let (n, stride) = (self.poles.count(), self.stride());
+    /// Computes the step against these values of the conditions.
+    pub fn solve(&mut self, values: &[T], step: &mut Vec<T>) {
+        let Self { poles, row, known, .. } = self;
+        let n = poles.count();
         let (balance, others) = values.split_at(self.load_row);
-        let rows = self.rows.chunks_exact(stride).zip(others);
-        self.right.clear();
-        self.right.extend(rows.map(|(row, &value)| value + dot(&row[n..], balance)));
+        let rows = self.rows.chunks_exact(n + self.load_row).zip(others);
+        row.clear();
+        row.extend(rows.map(|(row, &value)| value + dot(&row[n..], balance)));
         // The constants with the sign of a step, so the known part of Q, too.
-        self.linear.solve(&self.right, &mut self.known);
-        self.known.extend(balance.iter().map(|&value| -value));
+        self.linear.solve(row, known);
+        known.extend(balance.iter().map(|&value| -value));
         step.clear();
         for i in self.free.clone() {
-            self.row.clear();
-            self.row.resize(stride, T::zero());
-            let share = -T::of(2.0) / (self.slopes[i] * self.at_ends[i]);
-            self.poles.add(self.limits[i], share, &mut self.row);
-            step.push(dot(&self.row, &self.known));
+            row.clear();
+            row.resize(known.len(), T::zero());
+            poles.add(self.limits[i], -T::of(2.0) / (self.slopes[i] * self.at_ends[i]), row);
+            step.push(dot(row, known));
+        }
+        if let Some(Besides { by_limits, by_unknown, others }) = &self.besides {
+            let value = values.get(by_limits.len()).map_or(T::zero(), |&value| value);
+            let open = value - dot(by_limits, step);
+            let unknown = open / (*by_unknown - dot(by_limits, others));
+            step.iter_mut().zip(others).for_each(|(step, &by)| *step -= unknown * by);
+            step.push(unknown);
         }
     }
 }
