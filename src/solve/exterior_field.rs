@@ -144,28 +144,41 @@ pub(crate) struct ExteriorFields<T> {
     /// Series of each contact, from left to right.
     pub each: Vec<ExteriorField<T>>,
     on: Vec<Interval<T>>,
-    /// Parts of the potential and of its slope by the contacts far from each gap.
+    /// Gaps, and stretches before and after all contacts.
+    places: Vec<Interval<T>>,
+    /// Parts of the potential and of its slope by the contacts far from each place.
     far: [FarField<T>; 2],
 }
 
 impl<T: Real> ExteriorFields<T> {
     pub fn new() -> Self {
         let far = [Combine::Sum; 2].map(FarField::new);
-        Self { each: Vec::new(), on: Vec::new(), far }
+        Self { each: Vec::new(), on: Vec::new(), places: Vec::new(), far }
     }
 
-    /// Sums up the series of contacts far from each gap.
-    pub fn gather(&mut self) {
-        let Self { each, on, far: [potential, slope] } = self;
-        // One contact has no gap.
-        if each.len() == 1 {
-            return;
-        }
+    /// Sums up the series of contacts far from each place, within the range of the bodies.
+    pub fn gather(&mut self, [from, to]: [T; 2]) {
+        let Self { each, on, places, far: [potential, slope] } = self;
+        places.clear();
         on.clear();
         on.extend(each.iter().map(|field| field.on));
-        let gaps = on.windows(2).map(|pair| Interval { left: pair[0].right, right: pair[1].left });
-        potential.set(on, gaps.clone(), &|i, x| each[i].potential(x));
-        slope.set(on, gaps, &|i, x| each[i].slope(x));
+        // One contact is summed by itself.
+        let [first, .., last] = on[..] else { return };
+        // Beyond all contacts, stretches each as long as its distance.
+        let (mut right, mut width) = (first.left, first.right - first.left);
+        while right > from {
+            places.push(Interval { left: right - width, right });
+            (right, width) = (right - width, width + width);
+        }
+        places.reverse();
+        places.extend(on.windows(2).map(|on| Interval { left: on[0].right, right: on[1].left }));
+        let (mut left, mut width) = (last.right, last.right - last.left);
+        while left < to {
+            places.push(Interval { left, right: left + width });
+            (left, width) = (left + width, width + width);
+        }
+        potential.set(on, places.iter().copied(), &|i, x| each[i].potential(x));
+        slope.set(on, places.iter().copied(), &|i, x| each[i].slope(x));
     }
 
     /// Returns `∫ P ln|x - s| ds` over all contacts, at a place that is not inside any.
@@ -187,11 +200,11 @@ impl<T: Real> ExteriorFields<T> {
         let sum = |near: &[ExteriorField<T>]| {
             near.iter().fold(T::zero(), |sum, field| sum + of(field, x))
         };
-        let before = self.each.partition_point(|field| field.on.centre() < x);
-        if before == 0 || before == self.each.len() {
-            return sum(&self.each);
+        let place = self.places.partition_point(|place| place.right < x);
+        match self.places.get(place) {
+            Some(_) => sum(&self.each[far.near(place)]) + far.far(place, x),
+            None => sum(&self.each),
         }
-        sum(&self.each[far.near(before - 1)]) + far.far(before - 1, x)
     }
 }
 

@@ -130,7 +130,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 field.refine(&x, pressures);
             }
         }
-        fields.gather();
+        fields.gather(self.gap.range());
         Ok(is_finer)
     }
 
