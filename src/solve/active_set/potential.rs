@@ -2,9 +2,9 @@
 //! loaded cell and over the observed one.
 //!
 //! Up to a few hundred cells, each loaded cell has a column of a matrix, kept from cut to cut. With
-//! more cells, neighbouring ones have matrices. The forces of distant cells act through their
-//! moments (Barnes and Hut, *Nature* 324, 1986, 446), whose effect is interpolated between a few
-//! places of a block of cells.
+//! more cells, neighbouring ones have matrices. The forces of distant groups act through their
+//! moments, whose effect is interpolated between a few places of a group, and from these between
+//! those of its halves (Greengard and Rokhlin, *J. Comput. Phys.* 73, 1987, 325).
 
 use crate::Real;
 use crate::numerics::dot;
@@ -14,11 +14,11 @@ use std::sync::LazyLock;
 /// Largest number of cells with columns.
 const MAX_COLUMNS: usize = 320;
 
-/// Largest number of cells in a block, with more cells than `MAX_COLUMNS`.
-const BLOCK: usize = 16;
+/// Largest number of cells in a group that is not halved, with more cells than `MAX_COLUMNS`.
+const MAX_UNDIVIDED: usize = 16;
 
-/// Numbers of moments of the forces of a group, and of places in a block: both leave errors of
-/// about 1e-5.
+/// Numbers of moments of the forces of a group, and of places in it: both leave errors of about
+/// 1e-5.
 const MOMENTS: usize = 10;
 const PLACES: usize = 8;
 
@@ -65,36 +65,32 @@ pub(super) struct Potential<T> {
     cells: Vec<CellPlace<T>>,
     /// Potential in each cell of a unit force on a cell; empty until needed.
     columns: Vec<Vec<T>>,
-    /// Groups and blocks, if there are many cells.
+    /// Groups, if there are many cells: the halves of each before it.
     groups: Vec<CellGroup<T>>,
-    blocks: Vec<Block<T>>,
 }
 
-/// Adjacent cells, and the powers of their places about the middle of the group.
+/// Adjacent cells.
 struct CellGroup<T> {
     cells: [usize; 2],
     centre: T,
     radius: T,
-    powers: Vec<[T; MOMENTS]>,
-    /// Numbers of the two halves; `None` for a block.
+    /// Numbers of the two halves, if any.
     halves: Option<[usize; 2]>,
-}
-
-/// Smallest group, and the matrices that act on its cells.
-struct Block<T> {
-    cells: [usize; 2],
-    /// Ranges of nearby cells, each with a matrix whose rows are the cells of the block.
-    near: Vec<([usize; 2], Vec<T>)>,
+    /// Powers of the places of the cells about the middle, if there are no halves.
+    powers: Vec<[T; MOMENTS]>,
+    /// Shares of the values at the places of the group in those at the places of both halves, or in
+    /// the mean over each cell.
+    shares: Vec<[T; PLACES]>,
     /// Distant groups, and the potential of their moments at the places.
     far: Vec<(usize, [[T; MOMENTS]; PLACES])>,
-    /// Shares of the values at the places in the mean over each cell.
-    shares: Vec<[T; PLACES]>,
+    /// Ranges of nearby cells, each with a matrix whose rows are the cells of the group.
+    near: Vec<([usize; 2], Vec<T>)>,
 }
 
 impl<T: Real> Potential<T> {
     pub fn new() -> Self {
         let (cells, columns) = (Vec::new(), Vec::new());
-        Self { cells, columns, groups: Vec::new(), blocks: Vec::new() }
+        Self { cells, columns, groups: Vec::new() }
     }
 
     /// Takes other cells, some of which had a number before. Keeps the columns of the wanted ones.
@@ -107,12 +103,9 @@ impl<T: Real> Potential<T> {
         let known = std::mem::take(&mut self.columns);
         self.cells = cells;
         self.groups.clear();
-        self.blocks.clear();
         if self.cells.len() > MAX_COLUMNS {
-            let root = group(&self.cells, [0, self.cells.len()], BLOCK, &mut self.groups);
-            for target in self.groups.iter().filter(|group| group.halves.is_none()) {
-                self.blocks.push(Block::new(&self.cells, &self.groups, target, root));
-            }
+            let root = self.group([0, self.cells.len()]);
+            self.see(root, vec![root]);
             return;
         }
         for (j, &number) in before.iter().enumerate() {
@@ -150,11 +143,14 @@ impl<T: Real> Potential<T> {
         if let Some(column) = self.columns.get(j) {
             return column[i];
         }
-        let block = &self.blocks[self.blocks.partition_point(|block| block.cells[1] <= i)];
-        let near = block.near.iter().find(|([first, end], _)| (*first..*end).contains(&j));
+        let mut group = &self.groups[self.groups.len() - 1];
+        while let Some([left, right]) = group.halves {
+            group = &self.groups[if i < self.groups[left].cells[1] { left } else { right }];
+        }
+        let near = group.near.iter().find(|([first, end], _)| (*first..*end).contains(&j));
         match near {
             Some(([first, end], matrix)) => {
-                matrix[(i - block.cells[0]) * (end - first) + j - first]
+                matrix[(i - group.cells[0]) * (end - first) + j - first]
             }
             None => self.mean_log(i, j),
         }
@@ -171,71 +167,153 @@ impl<T: Real> Potential<T> {
                 }
             }
         }
-        let moments: Vec<_> = self.groups.iter().map(|group| group.moments(forces)).collect();
-        for block in &self.blocks {
-            let mut at_places = [T::zero(); PLACES];
-            for (group, transfer) in &block.far {
-                for (value, row) in at_places.iter_mut().zip(transfer) {
-                    *value += dot(row, &moments[*group]);
+        let mut moments = Vec::with_capacity(self.groups.len());
+        for group in &self.groups {
+            moments.push(match group.halves {
+                None => group.moments(&forces[group.cells[0]..group.cells[1]]),
+                Some(halves) => {
+                    group.merged(halves.map(|half| (&self.groups[half], moments[half])))
+                }
+            });
+        }
+        let mut at_places = vec![[T::zero(); PLACES]; self.groups.len()];
+        for (number, group) in self.groups.iter().enumerate().rev() {
+            let mut values = at_places[number];
+            for (source, transfer) in &group.far {
+                for (value, row) in values.iter_mut().zip(transfer) {
+                    *value += dot(row, &moments[*source]);
                 }
             }
-            let [from, to] = block.cells;
-            for (i, shares) in (from..to).zip(&block.shares).filter(|&(i, _)| wanted(i)) {
-                let mut sum = dot(shares, &at_places);
-                for ([first, end], matrix) in &block.near {
-                    let row = (i - from) * (end - first);
-                    sum += dot(&matrix[row..row + end - first], &forces[*first..*end]);
+            let between = |shares: &[T; PLACES]| dot(shares, &values);
+            if let Some(halves) = group.halves {
+                for (half, shares) in halves.into_iter().zip(group.shares.as_chunks().0) {
+                    at_places[half] = shares.each_ref().map(between);
                 }
-                potential[i] = sum;
+                continue;
+            }
+            let [from, to] = group.cells;
+            for (i, shares) in (from..to).zip(&group.shares).filter(|&(i, _)| wanted(i)) {
+                potential[i] =
+                    group.near.iter().fold(between(shares), |sum, ([first, end], matrix)| {
+                        let row = (i - from) * (end - first);
+                        sum + dot(&matrix[row..row + end - first], &forces[*first..*end])
+                    });
             }
         }
     }
-}
 
-/// Adds a group and all groups within it; returns its number.
-fn group<T: Real>(
-    cells: &[CellPlace<T>],
-    [from, to]: [usize; 2],
-    block: usize,
-    groups: &mut Vec<CellGroup<T>>,
-) -> usize {
-    let half = T::of(0.5);
-    let halves = (to - from > block).then(|| {
+    /// Adds all groups within one, and then that; returns its number.
+    fn group(&mut self, [from, to]: [usize; 2]) -> usize {
+        let half = T::of(0.5);
         let middle = usize::midpoint(from, to);
-        [[from, middle], [middle, to]].map(|part| group(cells, part, block, groups))
-    });
-    let (first, last) = (cells[from], cells[to - 1]);
-    let [left, right] = [first.centre - half * first.width, last.centre + half * last.width];
-    let (centre, radius) = (half * (left + right), half * (right - left));
-    let powers = cells[from..to].iter().map(|cell| {
-        let mut mean = [T::zero(); MOMENTS];
-        for (at, weight) in GAUSS {
-            let t = (cell.centre - centre + T::of(at) * cell.width) / radius;
-            let mut power = T::of(weight);
-            for mean in &mut mean {
-                *mean += power;
-                power *= t;
+        let is_divided = to - from > MAX_UNDIVIDED;
+        let halves =
+            is_divided.then(|| [[from, middle], [middle, to]].map(|part| self.group(part)));
+        let (first, last) = (self.cells[from], self.cells[to - 1]);
+        let [left, right] = [first.centre - half * first.width, last.centre + half * last.width];
+        let (centre, radius) = (half * (left + right), half * (right - left));
+        let (mut powers, mut shares) = (Vec::new(), Vec::new());
+        for half in halves.iter().flatten().map(|&half| &self.groups[half]) {
+            let at = |place: T| (half.centre + place * half.radius - centre) / radius;
+            shares.extend(places().map(|place| cardinals(at(place))));
+        }
+        for cell in self.cells[from..to].iter().filter(|_| !is_divided) {
+            let mut mean = ([T::zero(); MOMENTS], [T::zero(); PLACES]);
+            for (at, weight) in GAUSS {
+                let t = (cell.centre - centre + T::of(at) * cell.width) / radius;
+                let mut power = T::of(weight);
+                for mean in &mut mean.0 {
+                    *mean += power;
+                    power *= t;
+                }
+                for (mean, value) in mean.1.iter_mut().zip(cardinals(t)) {
+                    *mean += T::of(weight) * value;
+                }
+            }
+            powers.push(mean.0);
+            shares.push(mean.1);
+        }
+        let (cells, far, near) = ([from, to], Vec::new(), Vec::new());
+        self.groups.push(CellGroup { cells, centre, radius, halves, powers, shares, far, near });
+        self.groups.len() - 1
+    }
+
+    /// Prepares for the effect of groups on one, and on all within it.
+    fn see(&mut self, number: usize, mut sources: Vec<usize>) {
+        let target = &self.groups[number];
+        let (mut far, mut beside, mut near) = (Vec::new(), Vec::new(), Vec::new());
+        while let Some(source) = sources.pop() {
+            let group = &self.groups[source];
+            let apart = (group.centre - target.centre).abs();
+            let is_wider = target.halves.is_none() || group.radius > target.radius;
+            if apart > T::of(2.5) * (group.radius + target.radius) {
+                let at = |place: T| group.transfer(target.centre + place * target.radius);
+                far.push((source, places().map(at)));
+            } else if let Some(halves) = group.halves.filter(|_| is_wider) {
+                sources.extend(halves);
+            } else if target.halves.is_some() {
+                beside.push(source);
+            } else {
+                near.push((group.cells, self.matrix(target.cells, group.cells)));
             }
         }
-        mean
-    });
-    let powers = powers.collect();
-    groups.push(CellGroup { cells: [from, to], centre, radius, powers, halves });
-    groups.len() - 1
+        for half in target.halves.into_iter().flatten() {
+            self.see(half, beside.clone());
+        }
+        let target = &mut self.groups[number];
+        (target.far, target.near) = (far, near);
+    }
+
+    /// Returns the potential in some cells of unit forces on others, row by row.
+    fn matrix(&self, [from, to]: [usize; 2], [first, end]: [usize; 2]) -> Vec<T> {
+        let mut matrix = Vec::with_capacity((to - from) * (end - first));
+        for i in from..to {
+            for j in first..end {
+                // The matrix of a group on itself is symmetric.
+                let is_known = first == from && j < i;
+                matrix.push(if is_known {
+                    matrix[(j - first) * (end - first) + i - from]
+                } else {
+                    self.mean_log(i, j)
+                });
+            }
+        }
+        matrix
+    }
 }
 
 impl<T: Real> CellGroup<T> {
     fn moments(&self, forces: &[T]) -> [T; MOMENTS] {
         let mut moments = [T::zero(); MOMENTS];
-        let [from, to] = self.cells;
-        for (powers, &force) in self.powers.iter().zip(&forces[from..to]) {
-            if !force.is_zero() {
-                for (moment, &power) in moments.iter_mut().zip(powers) {
-                    *moment += force * power;
-                }
+        for (powers, &force) in self.powers.iter().zip(forces).filter(|of| !of.1.is_zero()) {
+            for (moment, &power) in moments.iter_mut().zip(powers) {
+                *moment += force * power;
             }
         }
         moments
+    }
+
+    /// Returns the moments from those of the halves.
+    fn merged(&self, halves: [(&Self, [T; MOMENTS]); 2]) -> [T; MOMENTS] {
+        let mut merged = [T::zero(); MOMENTS];
+        for (half, mut moments) in halves {
+            let (aside, size) =
+                ((half.centre - self.centre) / self.radius, half.radius / self.radius);
+            let mut power = T::one();
+            for moment in &mut moments {
+                *moment *= power;
+                power *= size;
+            }
+            // The binomial theorem, a power of `aside` at a time.
+            for first in 1..MOMENTS {
+                for k in (first..MOMENTS).rev() {
+                    let before = moments[k - 1];
+                    moments[k] += aside * before;
+                }
+            }
+            merged.iter_mut().zip(moments).for_each(|(merged, moment)| *merged += moment);
+        }
+        merged
     }
 
     /// Returns the potential of each moment at x.
@@ -252,54 +330,9 @@ impl<T: Real> CellGroup<T> {
     }
 }
 
-impl<T: Real> Block<T> {
-    fn new(
-        cells: &[CellPlace<T>],
-        groups: &[CellGroup<T>],
-        target: &CellGroup<T>,
-        root: usize,
-    ) -> Self {
-        let [from, to] = target.cells;
-        let places = AT_PLACES.map(|at| T::of(at[1]));
-        let (mut near, mut far) = (Vec::new(), Vec::new());
-        let mut waiting = vec![root];
-        while let Some(number) = waiting.pop() {
-            let source = &groups[number];
-            let apart = (source.centre - target.centre).abs();
-            if apart > T::of(2.5) * (source.radius + target.radius) {
-                let at = |t: T| source.transfer(target.centre + t * target.radius);
-                far.push((number, places.map(at)));
-            } else if let Some(halves) = source.halves {
-                waiting.extend(halves);
-            } else {
-                let [first, end] = source.cells;
-                let mut matrix = Vec::with_capacity((to - from) * (end - first));
-                for i in from..to {
-                    for j in first..end {
-                        // The matrix of a block on itself is symmetric.
-                        let known = first == from && j < i;
-                        matrix.push(if known {
-                            matrix[(j - first) * (end - first) + i - from]
-                        } else {
-                            mean_log(cells[i], cells[j])
-                        });
-                    }
-                }
-                near.push((source.cells, matrix));
-            }
-        }
-        let shares = cells[from..to].iter().map(|cell| {
-            let mut shares = [T::zero(); PLACES];
-            for (at, weight) in GAUSS {
-                let t = (cell.centre + T::of(at) * cell.width - target.centre) / target.radius;
-                for (share, value) in shares.iter_mut().zip(cardinals(t)) {
-                    *share += T::of(weight) * value;
-                }
-            }
-            shares
-        });
-        Self { cells: [from, to], near, shares: shares.collect(), far }
-    }
+/// Returns the places of a group, in units of its radius from its centre.
+fn places<T: Real>() -> [T; PLACES] {
+    AT_PLACES.map(|at| T::of(at[1]))
 }
 
 /// Chebyshev polynomials at the places.
