@@ -26,14 +26,15 @@ static COSINES: LazyLock<[f64; 4 * POINTS]> =
 /// Pressure of one contact as a cosine series.
 #[derive(Clone)]
 pub(crate) struct ExteriorField<T> {
-    on: Interval<T>,
-    pressures: [T; POINTS],
+    pub on: Interval<T>,
+    pub pressures: [T; POINTS],
     q: [T; POINTS],
     /// Coefficients from more values in place of `q`, if any.
     finer: Vec<T>,
     /// Flags: the pressure is zero at this limit.
     free: Ends<bool>,
-    doubt: T,
+    /// Uncertainty of the potential at the limits, due to the coefficients left out.
+    pub doubt: T,
 }
 
 impl<T: Real> ExteriorField<T> {
@@ -101,19 +102,6 @@ impl<T: Real> ExteriorField<T> {
         let root = (beyond * (beyond + T::of(2.0))).sqrt();
         let size = T::one() / (T::one() + beyond + root);
         [if right { size } else { -size }, root * half_width]
-    }
-
-    pub fn interval(&self) -> Interval<T> {
-        self.on
-    }
-
-    pub fn pressures(&self) -> &[T; POINTS] {
-        &self.pressures
-    }
-
-    /// Returns the uncertainty of the potential at the limits, due to the coefficients left out.
-    pub fn doubt(&self) -> T {
-        self.doubt
     }
 
     /// Returns the uncertainty of the rise of the potential across a region outside the contact.

@@ -118,12 +118,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
         };
         for field in &mut fields.each {
             let mut count = field.coefficients().len();
-            while field.doubt() > share * self.found.load.abs()
+            while field.doubt > share * self.found.load.abs()
                 && count < MAX_POINTS
                 && is_apart(2 * count)
             {
                 (count, is_finer) = (2 * count, true);
-                let x = (0..count).map(|i| ExteriorField::place(field.interval(), i, count));
+                let x = (0..count).map(|i| ExteriorField::place(field.on, i, count));
                 let x: Vec<T> = x.collect();
                 let mut pressures = vec![T::zero(); count];
                 self.pressures(&x, &mut pressures)?;
@@ -162,13 +162,13 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
         };
         for (i, field) in fields.each.iter().enumerate() {
-            let on = field.interval();
+            let on = field.on;
             let mean = field.load().abs() / on.half_width();
             // The uncertainty of a pressure is estimated below.
             let allowed = ContactState::<T>::rounding()
                 * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
             seen.clear();
-            let both = ExteriorField::places(on).into_iter().zip(field.pressures());
+            let both = ExteriorField::places(on).into_iter().zip(&field.pressures);
             seen.extend(both.map(|(x, &pressure)| [x, pressure]));
             // Features that the panels resolve are not narrower than the spacing of their nodes.
             let (mut places, mut count) = ([T::zero(); POINTS], 0);

@@ -4,9 +4,9 @@ use super::ActiveSet;
 use super::balance::Balance;
 use crate::Real;
 use crate::numerics::dot;
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, DMatrix, Dyn};
 
-/// Largest number of loaded cells whose equations are solved by elimination.
+/// Largest number of loaded cells whose equations are all solved together.
 const DENSE: usize = 120;
 
 /// Number of neighbours whose equations are solved together in each step of conjugate gradients.
@@ -25,9 +25,7 @@ impl<T: Real> ActiveSet<T> {
         let on: Vec<_> = (0..self.cells.len()).filter(|&i| self.cells[i].loaded).collect();
         on.iter().for_each(|&i| self.matrix.load(i));
         let arms: Vec<_> = on.iter().map(|&i| self.arm(self.cells[i].centre())).collect();
-        let exact = if on.len() <= DENSE { self.eliminate(&on, &arms) } else { None };
-        let found = exact.is_some();
-        let (forces, steps) = exact.unwrap_or_else(|| self.iterate(&on, &arms));
+        let (forces, steps) = self.iterate(&on, &arms);
         self.work += self.cells.len() * steps;
         let mut all = vec![T::zero(); self.cells.len()];
         let mut largest = T::zero();
@@ -41,7 +39,8 @@ impl<T: Real> ActiveSet<T> {
         let sunk: Vec<_> = on.iter().map(|&i| self.rise[i] + self.potential[i]).collect();
         [self.level, self.slope] = line(&arms, [sum(&sunk), dot(&arms, &sunk)]);
         let rounding = T::of(64.0) * T::epsilon() * (T::one() + self.level.abs());
-        if found { rounding.min(T::of(0.1) * largest) } else { T::of(1e-3) * largest }
+        let is_exact = on.len() <= DENSE;
+        if is_exact { rounding.min(T::of(0.1) * largest) } else { T::of(1e-3) * largest }
     }
 
     /// Factors the matrix of some loaded cells.
@@ -49,21 +48,6 @@ impl<T: Real> ActiveSet<T> {
         // The lower half suffices.
         let entry = |i, j| if i < j { T::zero() } else { self.matrix.entry(on[i], on[j]) };
         DMatrix::from_fn(on.len(), on.len(), entry).cholesky()
-    }
-
-    /// Returns the forces by elimination, and the number of steps: `K q = level + slope arm - rise`
-    /// with `Σ q = 1` and, if the bodies turn, `Σ q arm = 0`.
-    fn eliminate(&self, on: &[usize], arms: &[T]) -> Option<(Vec<T>, usize)> {
-        let lowest = on.iter().map(|&i| self.rise[i]).reduce(|low, rise| low.min(rise))?;
-        let factor = self.factor(on)?;
-        let even = factor.solve(&DVector::from_element(on.len(), T::one()));
-        let arms = DVector::from_column_slice(arms);
-        let leaning = self.at.map_or_else(|| arms.clone(), |_| factor.solve(&arms));
-        let rise = factor.solve(&DVector::from_fn(on.len(), |i, _| self.rise[on[i]] - lowest));
-        let products = [even.sum(), even.dot(&arms), leaning.dot(&arms)];
-        let [level, slope] = multiples(products, [T::one() + rise.sum(), rise.dot(&arms)]);
-        let forces = even * level + leaning * slope - rise;
-        forces.iter().all(|force| force.is_finite()).then(|| (forces.data.into(), on.len()))
     }
 
     /// Returns the forces by conjugate gradients among forces of one sum, and of one moment if the
@@ -80,8 +64,8 @@ impl<T: Real> ActiveSet<T> {
             self.matrix.of(&all, |i| self.cells[i].loaded, &mut sunk);
             on.iter().map(|&i| sunk[i]).collect()
         };
-        let runs = on.chunk_by(|i, j| i + 1 == *j).flat_map(|run| run.chunks(NEIGHBOURS));
-        let alone = runs.map(|run| (run.len(), self.factor(run))).collect();
+        let together = if on.len() <= DENSE { DENSE } else { NEIGHBOURS };
+        let alone = on.chunks(together).map(|run| (run.len(), self.factor(run))).collect();
         let balance = Balance::new(arms, alone);
         let forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();
         let excess = [sum(&forces) - T::one(), dot(&forces, arms)];

@@ -159,12 +159,10 @@ impl<T: Real> Potential<T> {
     /// Computes the potential of the forces in every cell; with many cells, only in the wanted
     /// ones.
     pub fn of(&self, forces: &[T], wanted: impl Fn(usize) -> bool, potential: &mut [T]) {
-        if !self.columns.is_empty() {
-            potential.fill(T::zero());
-            for (column, &force) in self.columns.iter().zip(forces).filter(|of| !of.1.is_zero()) {
-                for (potential, &entry) in potential.iter_mut().zip(column) {
-                    *potential += force * entry;
-                }
+        potential.fill(T::zero());
+        for (column, &force) in self.columns.iter().zip(forces).filter(|of| !of.1.is_zero()) {
+            for (potential, &entry) in potential.iter_mut().zip(column) {
+                *potential += force * entry;
             }
         }
         let mut moments = Vec::with_capacity(self.groups.len());
@@ -266,19 +264,7 @@ impl<T: Real> Potential<T> {
 
     /// Returns the potential in some cells of unit forces on others, row by row.
     fn matrix(&self, [from, to]: [usize; 2], [first, end]: [usize; 2]) -> Vec<T> {
-        let mut matrix = Vec::with_capacity((to - from) * (end - first));
-        for i in from..to {
-            for j in first..end {
-                // The matrix of a group on itself is symmetric.
-                let is_known = first == from && j < i;
-                matrix.push(if is_known {
-                    matrix[(j - first) * (end - first) + i - from]
-                } else {
-                    self.mean_log(i, j)
-                });
-            }
-        }
-        matrix
+        (from..to).flat_map(|i| (first..end).map(move |j| self.mean_log(i, j))).collect()
     }
 }
 
