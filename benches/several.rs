@@ -136,7 +136,7 @@ fn solves(name: &str, visit: &mut Visit<'_>) {
 
 /// Scenes with more and more contacts: points of a parabola through which a spline runs, standard
 /// deviation of their independent noise as a share of the load, and load.
-pub(crate) const MANY: [(usize, f64, f64); 7] = [
+pub(crate) const MANY: [(usize, f64, f64); 8] = [
     (1500, 0.02, 2.5e-3),
     (2000, 0.06, 8e-3),
     (1700, 0.03, 2e-2),
@@ -144,7 +144,21 @@ pub(crate) const MANY: [(usize, f64, f64); 7] = [
     (4300, 0.03, 2e-2),
     (6000, 0.03, 2e-2),
     (4800, 0.03, 9e-2),
+    (17_000, 0.03, 9e-2),
 ];
+
+/// Waves on a parabola that touch at more and more crests: their numbers. The load is 0.02.
+const CRESTS: [f64; 3] = [320.0, 800.0, 1600.0];
+
+/// Returns a flat parabola with a number of waves of slopes up to 0.3.
+fn waves(count: f64) -> impl ParametricProfile<f64> {
+    let (rate, steep) = (PI * count, 0.3);
+    Curve::new([-1.0, 1.0], move |k: f64| {
+        let (sin, cos) = (rate * k).sin_cos();
+        let y = 0.05 * k * k - steep / rate * cos;
+        CurvePoint { x: k, y, dx: 1.0, dy: 0.1 * k + steep * sin }
+    })
+}
 
 /// Returns a spline through points of a parabola with independent noise.
 pub(crate) fn noisy(count: usize, deviation: f64) -> Spline<f64> {
@@ -167,22 +181,28 @@ pub(crate) fn noisy(count: usize, deviation: f64) -> Spline<f64> {
 /// Prints contacts and milliseconds of a first solve, milliseconds of the next, 2 % heavier, and
 /// the sets of contacts tried; each solve is done once.
 fn many() {
-    println!("|points|contacts|first solve, ms|sets tried|next load, ms|sets tried|");
+    println!("|body|contacts|first solve, ms|sets tried|next load, ms|sets tried|");
     println!("|---|---|---|---|---|---|");
     for (count, noise, load) in MANY {
-        let body = noisy(count, noise * load);
-        let contact = Contact::new(&Flat, &body).expect("they overlap");
-        let (mut solver, mut contacts) = (Solver::new(), None);
-        let row = [1.0, 1.02].map(|factor| {
-            let start = std::time::Instant::now();
-            let solution = solver.solve(&contact, Control::Load(factor * load));
-            let millis = 1e3 * start.elapsed().as_secs_f64();
-            let Ok(solution) = solution else { return format!("{millis:.0}|refused") };
-            contacts.get_or_insert(solution.intervals().len());
-            format!("{millis:.0}|{}", solution.report().attempts().len())
-        });
-        println!("|{count}|{}|{}|", contacts.unwrap_or(0), row.join("|"));
+        row(&format!("{count} points"), &noisy(count, noise * load), load);
     }
+    for count in CRESTS {
+        row(&format!("{count} waves"), &waves(count), 0.02);
+    }
+}
+
+fn row(name: &str, body: &dyn ParametricProfile<f64>, load: f64) {
+    let contact = Contact::new(&Flat, body).expect("they overlap");
+    let (mut solver, mut contacts) = (Solver::new(), None);
+    let row = [1.0, 1.02].map(|factor| {
+        let start = std::time::Instant::now();
+        let solution = solver.solve(&contact, Control::Load(factor * load));
+        let millis = 1e3 * start.elapsed().as_secs_f64();
+        let Ok(solution) = solution else { return format!("{millis:.0}|refused") };
+        contacts.get_or_insert(solution.intervals().len());
+        format!("{millis:.0}|{}", solution.report().attempts().len())
+    });
+    println!("|{name}|{}|{}|", contacts.unwrap_or(0), row.join("|"));
 }
 
 /// Prints a problem for boundary elements: κ, F, the ends and the heights at the middles of `cells`

@@ -30,8 +30,8 @@
 //! ```
 //!
 //! These are the conditions on a pressure `-κ S/(2 π² p) V(e)/(x - e)`, singular at e. So a step δ
-//! of Newton's method gives the pressure that meets all conditions on the contacts at hand, with a
-//! singularity of the strength `V(e) δ` at each limit. A limit has to move outward where that is
+//! of Newton's method (`system.rs`) gives the pressure that meets all conditions on the contacts at
+//! hand, with a singularity of the strength `V(e) δ` at each limit. A limit has to move outward where that is
 //! positive, and does if `V(e)` has the sign of a positive pressure next to it. At trial contacts
 //! with tension there, the sign of `V(e)` is reversed, so that it still does.
 //!
