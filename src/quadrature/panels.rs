@@ -38,6 +38,7 @@ use panel::Series;
 use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{MAX_MISSED, PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System};
+use std::any::Any;
 /// Tells whether the slope of the gap rises all over the contact last prepared, up to a share of
 /// the largest slope; `None` for other integrators, and for several contacts.
 pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option<bool> {
@@ -109,15 +110,20 @@ pub(crate) fn with_panels<T: Real, R>(
 /// Switches an integrator of panels to several contacts; `None` for any other integrator, which
 /// handles only one.
 pub(crate) fn several_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option<&mut Several<T>> {
-    let integrator = integrator.panels_mut()?;
+    let integrator = panels_mut(integrator)?;
     integrator.is_several = true;
     integrator.several.spent = integrator.panel_set.cost;
     Some(&mut integrator.several)
 }
 
+/// Returns the panels of an integrator that works on them.
+fn panels_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option<&mut PanelIntegrator<T>> {
+    (integrator as &mut dyn Any).downcast_mut()
+}
+
 /// Passes guides to an integrator of panels.
 pub(crate) fn guide<T: Real>(integrator: &mut dyn Integrator<T>, guides: Guides<T>) {
-    if let Some(integrator) = integrator.panels_mut() {
+    if let Some(integrator) = panels_mut(integrator) {
         integrator.panel_set.guide(guides);
     }
 }
@@ -132,7 +138,7 @@ pub(crate) fn probe<T: Real>(
     gap: &Gap<'_, T>,
     on: Interval<T>,
 ) -> Result<bool, ContactError<T>> {
-    let Some(integrator) = integrator.panels_mut() else { return Ok(false) };
+    let Some(integrator) = panels_mut(integrator) else { return Ok(false) };
     if integrator.is_several {
         return integrator.several.probe(gap);
     }
@@ -308,10 +314,6 @@ impl<T: Real> PanelIntegrator<T> {
 
 impl<T: Real> Integrator<T> for PanelIntegrator<T> {
     fn panels(&self) -> Option<&Self> {
-        Some(self)
-    }
-
-    fn panels_mut(&mut self) -> Option<&mut Self> {
         Some(self)
     }
 
