@@ -46,26 +46,15 @@ impl<T: Real> HalfAngle<T> {
     }
 }
 
-/// Integrals of `cos kφ` over a span of φ; over the span from 0 to θ they are `sin kθ/k`.
+/// Integrals of `cos kφ` over a span of φ; over the span from 0 to θ they are θ and `sin kθ/k`.
 pub(super) type Sines<T> = [T; MAX_SIZE + 2];
 
 impl<T: Real> HalfAngle<T> {
-    /// Returns θ and `π - θ`, the smaller one to all digits.
-    pub fn angles(&self) -> [T; 2] {
-        let twice = |sin: T, cos: T| T::of(2.0) * sin.atan2(cos);
-        if self.sin <= self.cos {
-            let theta = twice(self.sin, self.cos);
-            [theta, T::pi() - theta]
-        } else {
-            let rest = twice(self.cos, self.sin);
-            [T::pi() - rest, rest]
-        }
-    }
-
-    /// Returns the integrals from 0 to θ, up to k = `count - 1`, without k = 0.
+    /// Returns the integrals from 0 to θ, up to k = `count - 1`.
     pub fn sines(&self, count: usize) -> Sines<T> {
         let two = T::of(2.0);
         let mut sines = [T::zero(); MAX_SIZE + 2];
+        sines[0] = two * self.sin.atan2(self.cos);
         let twice = two * self.cosine();
         let (mut before, mut sine) = (T::zero(), self.sine());
         for (k, integral) in sines[1..count].iter_mut().enumerate() {

@@ -55,7 +55,8 @@ pub(super) fn reexpanded<T: Real>(
     let slopes = (0..panels.len()).flat_map(ends_of);
     let most_bulk = T::of(MAX_GROWTH) * slopes.fold(zero, |max, slope| max.max(slope.abs()));
     let mut start = HalfAngle::of(on, on.left);
-    let mut left = ([zero; MAX_SIZE + 2], [T::pi(), zero]);
+    let mut left = [zero; MAX_SIZE + 2];
+    left[0] = T::pi();
     for (i, panel) in panels.iter().enumerate() {
         let (series, terms) = panel.over(on);
         let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
@@ -63,16 +64,12 @@ pub(super) fn reexpanded<T: Real>(
             return false;
         }
         let ends = ends_of(i);
-        let mut right = ([zero; MAX_SIZE + 2], [zero, T::pi()]);
-        let mut end = start;
+        let (mut end, mut right) = (start, [zero; MAX_SIZE + 2]);
         if i < last {
             end = HalfAngle::of(on, panel.x[1]);
-            right = (end.sines(count), end.angles());
+            right = end.sines(count);
         }
-        let mut integrals: Sines<T> = std::array::from_fn(|k| left.0[k] - right.0[k]);
-        // Between angles near π, their distances from π keep the digits.
-        let [by_angle, by_rest] = [left.1[0] - right.1[0], right.1[1] - left.1[1]];
-        integrals[0] = if right.1[1] < right.1[0] { by_rest } else { by_angle };
+        let integrals: Sines<T> = std::array::from_fn(|k| left[k] - right[k]);
         show(&PanelAngles { panel, is_first: i == 0, start, series, terms, bulk, integrals, ends });
         (start, left) = (end, right);
     }
