@@ -268,7 +268,7 @@ impl<T: Real> PanelIntegrator<T> {
     }
 
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
-        self.panel_set.own_up_alone();
+        self.panel_set.own_up();
         let from = self.moments.map(|(from, _)| from);
         let m = edge_integrals::moments(&self.panel_set.panels, on, false, &mut self.over, from);
         (self.moments, self.is_prepared) = (Some((on, m)), false);

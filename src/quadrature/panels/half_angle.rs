@@ -46,7 +46,7 @@ impl<T: Real> HalfAngle<T> {
     }
 }
 
-/// Integrals of `cos kφ` over a span of φ; over the span from 0 to θ they are θ and `sin kθ/k`.
+/// Integrals of `cos kφ` over a span of φ; from 0 to θ they are θ and `sin kθ/k`.
 pub(super) type Sines<T> = [T; MAX_SIZE + 2];
 
 impl<T: Real> HalfAngle<T> {

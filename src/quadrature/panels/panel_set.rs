@@ -5,7 +5,6 @@ mod declared;
 mod derivative_check;
 mod probing;
 mod sampling;
-mod seams;
 
 pub(crate) use derivative_check::Rises;
 pub(crate) use probing::MAX_MISSED;
@@ -399,7 +398,7 @@ impl<T: Real> PanelSet<T> {
                 }
             }
             if let Some(mut before) = before {
-                self.own_up([&mut before, &mut trial.panel], trial.allowed);
+                self.own_up_to([&mut before, &mut trial.panel], trial.allowed);
                 let last = self.panels.len() - 1;
                 self.panels[last].error = before.error;
             }
@@ -407,6 +406,29 @@ impl<T: Real> PanelSet<T> {
             let Some(next) = self.waiting.pop() else { return Ok(()) };
             trial = next;
         }
+    }
+
+    /// Tells whether two neighbours have the same slope where they meet. (A feature between the last
+    /// nodes of either shows only there.)
+    pub fn meets(&self, left: &Panel<T>, right: &Panel<T>, allowed: T) -> bool {
+        let open = left.error + right.error + allowed.max(self.tolerance * self.size);
+        (left.at_ends()[1] - right.at_ends()[0]).abs() <= T::of(16.0) * open
+    }
+
+    /// Raises the errors of two neighbours to their mismatch if only a loose tolerance accepts it:
+    /// a feature lies between their last nodes.
+    fn own_up_to(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
+        let missed = (left.at_ends()[1] - right.at_ends()[0]).abs();
+        let is_explained = missed <= T::of(16.0) * (left.error + right.error);
+        if self.is_loose() && !is_explained && self.meets(left, right, allowed) {
+            left.error = left.error.max(missed);
+            right.error = right.error.max(missed);
+        }
+    }
+
+    /// Tells whether the tolerance is not the lowest.
+    fn is_loose(&self) -> bool {
+        self.tolerance > T::of(FINEST) * T::epsilon()
     }
 
     /// Tells whether the coefficients of a panel are noise, not a wave: on a small part of the

@@ -1,7 +1,7 @@
 //! One panel: sampled with the number of nodes that it needs, and judged.
 
 use super::candidate::Candidate;
-use super::{EndProbe, FINEST, LEAST, PanelSet};
+use super::{EndProbe, LEAST, PanelSet};
 use crate::gap::{CurveSample, Gap, SampleCache, sample_near};
 use crate::numerics::chebyshev::{SIZES, Table, by_size};
 use crate::profile::Noise;
@@ -147,8 +147,8 @@ impl<T: Real> PanelSet<T> {
     /// if a loose tolerance accepts them, the next coefficients may fall more slowly, as for a root
     /// hidden behind a smooth part. (Only after neighbours have been compared: larger errors would
     /// hide a mismatch.)
-    pub fn own_up_alone(&mut self) {
-        let is_loose = self.tolerance > T::of(FINEST) * T::epsilon();
+    pub fn own_up(&mut self) {
+        let is_loose = self.is_loose();
         if !is_loose && self.held.into_iter().all(|held| held.is_none()) {
             return;
         }
