@@ -55,11 +55,6 @@ impl<T: Real> SampleCache<T> {
         (self.piece, self.guides) = (None, [None, None]);
     }
 
-    /// Returns the piece of the points; `None` where it is given by x itself.
-    pub fn piece(&self) -> Option<usize> {
-        self.piece
-    }
-
     /// Returns the last points, one for each target.
     pub fn curve_samples(&self) -> &[CurveSample<T>] {
         self.curve_samples.inner()

@@ -66,7 +66,7 @@ pub(crate) struct PanelSet<T> {
     /// Candidates still to be accepted or split, the leftmost last.
     waiting: Vec<Candidate<T>>,
     traces: [SampleCache<T>; 2],
-    /// Noise of both bodies on the sampled span, if more than rounding, and the number of its
+    /// Noise of both bodies on the span last resolved, if more than rounding, and the number of its
     /// measurements there.
     noise: Option<[Noise<T>; 2]>,
     measured: usize,
@@ -318,9 +318,8 @@ impl<T: Real> PanelSet<T> {
         neighbour: Option<Panel<T>>,
     ) -> Result<(), ContactError<T>> {
         self.waiting.clear();
-        if self.panels.is_empty() || self.noise_is_of_another_piece(gap, x) {
-            (self.noise, self.measured) = (None, 0);
-        }
+        // The noise is that of other pieces, or of other parts of these.
+        (self.noise, self.measured) = (None, 0);
         let mut trial = Candidate::new(x);
         self.try_out(gap, &mut trial)?;
         if let Some(panel) = neighbour {
@@ -408,8 +407,8 @@ impl<T: Real> PanelSet<T> {
         }
     }
 
-    /// Tells whether two neighbours have the same slope where they meet. (A feature between the last
-    /// nodes of either shows only there.)
+    /// Tells whether two neighbours have the same slope where they meet. (A feature between their
+    /// last nodes shows only there.)
     pub fn meets(&self, left: &Panel<T>, right: &Panel<T>, allowed: T) -> bool {
         let open = left.error + right.error + allowed.max(self.tolerance * self.size);
         (left.at_ends()[1] - right.at_ends()[0]).abs() <= T::of(16.0) * open

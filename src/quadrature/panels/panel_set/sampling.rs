@@ -2,7 +2,7 @@
 
 use super::candidate::Candidate;
 use super::{EndProbe, LEAST, PanelSet};
-use crate::gap::{CurveSample, Gap, SampleCache, sample_near};
+use crate::gap::{CurveSample, Gap, sample_near};
 use crate::numerics::chebyshev::{SIZES, Table, by_size};
 use crate::profile::Noise;
 use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_ends};
@@ -270,15 +270,6 @@ impl<T: Real> PanelSet<T> {
         let reach = T::of(0.5) * (x[1] - x[0]);
         let wanted = offsets.map(|offset| reach + offset);
         Ok([0, 1].map(|i| at_nodes(&wanted, &self.traces[i], x[0], reach)))
-    }
-
-    /// Tells whether the noise was measured on pieces other than those at a span.
-    pub(super) fn noise_is_of_another_piece(&self, gap: &Gap<'_, T>, x: [T; 2]) -> bool {
-        let middle = T::of(0.5) * x[0] + T::of(0.5) * x[1];
-        let is_other = |(trace, body): (&SampleCache<T>, Body)| {
-            trace.piece() != Some(gap.piece_at(body, middle, Side::Left).0)
-        };
-        self.measured > 0 && self.traces.iter().zip([Body::Lower, Body::Upper]).any(is_other)
     }
 
     /// Measures the noise of both bodies where they were last sampled, unless it was measured often
