@@ -300,18 +300,14 @@ impl<T: Real> HilbertTransform<T> {
     /// mismatch times a logarithm. (At a jump the pressure is infinite.)
     fn spike(&self, panels: &[Panel<T>], x: T) -> T {
         let width = self.on.right - self.on.left;
-        let next = panels.partition_point(|panel| panel.x[1] < x).min(panels.len() - 1);
-        let breakpoint = panels[next].x.map(|end| (end - x).abs());
-        let (next, distance) = if breakpoint[0] < breakpoint[1] {
-            (next, breakpoint[0])
-        } else {
-            (next + 1, breakpoint[1])
-        };
         let close = T::epsilon() * width;
-        if next == 0 || next == panels.len() || distance > close {
+        let before = panels.partition_point(|panel| panel.x[1] < x - close);
+        let [left, right, ..] = &panels[before..] else { return T::zero() };
+        let distance = (left.x[1] - x).abs();
+        if distance > close {
             return T::zero();
         }
-        let jump = (panels[next].at_ends()[0] - panels[next - 1].at_ends()[1]).abs();
+        let jump = (right.at_ends()[0] - left.at_ends()[1]).abs();
         if jump > self.rounding.kink {
             return T::zero();
         }
