@@ -236,14 +236,7 @@ pub(super) fn judge<T: Real>(n: usize, series: &[T], allowed: T, rounded: T) -> 
     if faint && n < 24 {
         return Resolution::Take(24, last);
     }
-    let (mut expected, mut have) = (error, n);
-    for more in SIZES.into_iter().filter(|&more| more > n) {
-        while have < more {
-            (expected, have) = (expected * fall, have + 2);
-        }
-        if expected <= allowed {
-            return Resolution::Take(more, last);
-        }
-    }
-    Resolution::Split(last)
+    let expected = |more| (n..more).step_by(2).fold(error, |expected, _| expected * fall);
+    let enough = SIZES.into_iter().find(|&more| more > n && expected(more) <= allowed);
+    enough.map_or(Resolution::Split(last), |more| Resolution::Take(more, last))
 }
