@@ -172,7 +172,7 @@ pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Severa
 /// assert!((solution.a() / 0.2 - 1.0).abs() < 1e-6); // sqrt(2 F R/κ)
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Panels {
@@ -186,12 +186,6 @@ pub struct Panels {
 impl Panels {
     /// Full accuracy of the number type and of the profiles' formulas.
     pub const FULL: Self = Self { tolerance: 0.0 };
-}
-
-impl Default for Panels {
-    fn default() -> Self {
-        Self::FULL
-    }
 }
 
 impl<T: Real> Quadrature<T> for Panels {
