@@ -283,12 +283,9 @@ impl<T: Real> MidpointSums<T> {
         let mut changed = T::zero();
         for i in 0..values.len() - 1 {
             let gain = T::of(2.0).powf(self.exponents.power(i)) - T::one();
-            let finest = values.pop().expect("one more value than steps are left");
-            let before = *values.last().expect("likewise");
-            changed = (finest - before) / gain;
-            let mut next = finest;
-            for value in values.iter_mut().rev() {
-                (*value, next) = (next + (next - *value) / gain, *value);
+            for finer in 1..values.len() - i {
+                changed = (values[finer] - values[finer - 1]) / gain;
+                values[finer - 1] = values[finer] + changed;
             }
         }
         (values[0], changed)
