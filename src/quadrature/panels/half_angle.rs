@@ -21,8 +21,8 @@ use crate::{Interval, Real};
 /// Point of the contact, by the cosine and sine of half its angle.
 #[derive(Clone, Copy)]
 pub(crate) struct HalfAngle<T> {
-    cos: T,
-    sin: T,
+    pub cos: T,
+    pub sin: T,
 }
 
 impl<T: Real> HalfAngle<T> {

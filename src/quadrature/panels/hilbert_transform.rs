@@ -31,7 +31,7 @@
 //! Every term has the factor w, or one that goes to zero like w, from the distances of x to the
 //! edges: R keeps its relative accuracy up to a free edge.
 
-use super::half_angle::Sines;
+use super::half_angle::{HalfAngle, Sines};
 use super::near_far_sum::{Distance, NearFarSum, Seen};
 use super::panel::{Panel, Series, spans, within};
 use super::panel_set::FINEST;
@@ -231,7 +231,7 @@ impl<T: Real> HilbertTransform<T> {
             // A derivative may jump where the slope does not.
             series[0] -= jump.component(0);
         }
-        Change { breakpoint: Breakpoint::new(panel, on, panel.x[0]), series, terms }
+        Change { breakpoint: Breakpoint::new(panel, span.start), series, terms }
     }
 
     /// Returns `π² R` at the first `count` points, strictly inside the contact; infinite where the
@@ -327,18 +327,12 @@ fn add_smooth<const N: usize, T: Real>(smooth: &mut Coeffs<T>, q: &Coeffs<T>, si
     }
 }
 
-/// Returns the distances of a point to the two edges, as shares of the width.
-pub(super) fn shares<T: Real>(on: Interval<T>, x: T) -> [T; 2] {
-    let share = T::one() / (on.right - on.left);
-    [(x - on.left) * share, (on.right - x) * share]
-}
-
 /// Start of a panel, as the place of a logarithm.
 #[derive(Clone)]
 pub(super) struct Breakpoint<T> {
     x: T,
-    /// Square roots of the distances to the two edges, as shares of the width.
-    roots: [T; 2],
+    /// The roots of its distances to the two edges, as shares of the width.
+    at: HalfAngle<T>,
     /// Smallest distance that the series resolves.
     closest: T,
 }
@@ -349,9 +343,8 @@ const ARTANH: [f64; 9] =
     [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0];
 
 impl<T: Real> Breakpoint<T> {
-    pub fn new(panel: &Panel<T>, on: Interval<T>, x: T) -> Self {
-        let roots = shares(on, x).map(|share| share.sqrt());
-        Self { x, roots, closest: panel.half() / T::count(panel.n * panel.n) }
+    pub fn new(panel: &Panel<T>, at: HalfAngle<T>) -> Self {
+        Self { x: panel.x[0], at, closest: panel.half() / T::count(panel.n * panel.n) }
     }
 
     /// Returns `change Λ(x, t)` at points, with t the breakpoint. `left` and `right` are the square
@@ -374,8 +367,8 @@ impl<T: Real> Breakpoint<T> {
             let kink = distance.is_zero() && change <= rounding.kink;
             if kink || change <= rounding.slope { distance.max(self.closest) } else { distance }
         });
-        let m = left.map(|left| self.roots[1] * left);
-        let n = right.map(|right| self.roots[0] * right);
+        let m = left.map(|left| self.at.sin * left);
+        let n = right.map(|right| self.at.cos * right);
         let quotient: [T; W] =
             std::array::from_fn(|i| (m[i] + n[i]) * (m[i] + n[i]) * (width / distance[i]));
         let comparable = |i: usize| m[i].min(n[i]) >= T::of(0.1) * m[i].max(n[i]);

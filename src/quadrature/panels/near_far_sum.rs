@@ -8,7 +8,7 @@
 
 use super::cauchy_transform::{WithDerivative, inverse, length, ln, sqrt};
 use super::half_angle::{Arc, HalfAngle};
-use super::hilbert_transform::{Breakpoint, Rounding, shares};
+use super::hilbert_transform::{Breakpoint, Rounding};
 use super::panel::{Panel, spans};
 use super::treecode::{Group, group};
 use crate::numerics::CompensatedSum;
@@ -108,7 +108,7 @@ impl<T: Real> NearFarSum<T> {
     /// Returns `π² R` at a point.
     pub fn at(&self, x: T, on: Interval<T>, rounding: Rounding<T>) -> T {
         let (zero, mut sum, mut log) = (T::zero(), CompensatedSum::new(), CompensatedSum::new());
-        let roots = shares(on, x).map(|share| [share.sqrt()]);
+        let HalfAngle { cos, sin } = HalfAngle::of(on, x);
         let mut before = None;
         self.seen_from(x, |seen| {
             let (number, value) = match seen {
@@ -125,7 +125,7 @@ impl<T: Real> NearFarSum<T> {
             if number > 0 && (value.is_some() || before.is_some()) {
                 let change = value.unwrap_or(zero) - before.unwrap_or(zero);
                 let breakpoint = &self.parts[number].breakpoint;
-                log.add(breakpoint.logarithms([change], &[x], &roots, on, rounding)[0]);
+                log.add(breakpoint.logarithms([change], &[x], &[[cos], [sin]], on, rounding)[0]);
             }
             before = value;
         });
@@ -243,7 +243,8 @@ impl<T: Real> FarPanel<T> {
         const W: usize = 8;
         let [from, to] = panel.x;
         let width = on.right - on.left;
-        let arc = Arc::new(to - from, HalfAngle::of(on, from), HalfAngle::of(on, to), width);
+        let [start, end] = panel.x.map(|x| HalfAngle::of(on, x));
+        let arc = Arc::new(to - from, start, end, width);
         let farthest = panel.local(on.left).abs().max(panel.local(on.right).abs());
         let most = if seen == Seen::Below { T::of(GAUSS_REACH) } else { farthest };
         let reach = reach(panel.coefficients(), most);
@@ -259,7 +260,7 @@ impl<T: Real> FarPanel<T> {
         };
         let by_x = T::one() / panel.half();
         let length = if reach < closest { 0 } else { panel.length };
-        let start = nodes.len();
+        let first_node = nodes.len();
         let mut integrals = [T::zero(); MAX_SIZE];
         for block in 0..rule.n / W {
             let [y, weight] = arc.nodes::<W>(rule, block);
@@ -282,8 +283,8 @@ impl<T: Real> FarPanel<T> {
             let twice = if k == 0 { T::one() } else { T::of(2.0) };
             *integral *= twice * by_x;
         }
-        let breakpoint = Breakpoint::new(&panel, on, from);
-        Self { panel, breakpoint, integrals, reach, nodes: start..nodes.len() }
+        let breakpoint = Breakpoint::new(&panel, start);
+        Self { panel, breakpoint, integrals, reach, nodes: first_node..nodes.len() }
     }
 
     /// Returns the span of the surface on which the polynomial is used.
