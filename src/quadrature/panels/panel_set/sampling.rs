@@ -177,10 +177,8 @@ impl<T: Real> PanelSet<T> {
     /// and, if more nodes would not help, their relative error.
     fn judge_derivatives(&mut self, panel: &Panel<T>, level: usize) -> (Option<usize>, T) {
         let (mut next, mut worst) = (None, T::zero());
+        self.derivative_sizes.resize(self.derivatives.len(), T::zero());
         for (i, seen) in self.derivatives.iter().enumerate() {
-            if self.derivative_sizes.len() <= i {
-                self.derivative_sizes.push(T::zero());
-            }
             let largest = &mut self.derivative_sizes[i];
             if level == 0 {
                 *largest = largest.max(seen.slope);
@@ -223,10 +221,7 @@ impl<T: Real> PanelSet<T> {
         let rooms = self.noise.map_or([room; 2], |noise| noise.map(beside));
         let [lower, upper] = self.slopes_at(gap, x, &offsets, &nodes, &rooms)?;
         self.cost.samples += N;
-        let mut slopes = [zero; N];
-        for i in 0..N {
-            slopes[i] = upper[i] - lower[i];
-        }
+        let slopes: [T; N] = std::array::from_fn(|i| upper[i] - lower[i]);
         let mut seen = self.seen(x, &nodes, reach, [&lower, &upper]);
         // Unless the bodies are much steeper than the gap, their rounding is far below the
         // tolerance.
