@@ -31,9 +31,9 @@
 //!
 //! These are the conditions on a pressure `-κ S/(2 π² p) V(e)/(x - e)`, singular at e. So a step δ
 //! of Newton's method (`system.rs`) gives the pressure that meets all conditions on the contacts at
-//! hand, with a singularity of the strength `V(e) δ` at each limit. A limit has to move outward where that is
-//! positive, and does if `V(e)` has the sign of a positive pressure next to it. At trial contacts
-//! with tension there, the sign of `V(e)` is reversed, so that it still does.
+//! hand, with a singularity of the strength `V(e) δ` at each limit. A limit has to move outward
+//! where that is positive, and does if `V(e)` has the sign of a positive pressure next to it. At
+//! trial contacts with tension there, the sign of `V(e)` is reversed, so that it still does.
 //!
 //! As a gap of width w closes, `V(ν)` becomes π²/S times the pressure in its place. The condition
 //! of the gap vanishes with w² whatever the pressure does, so that a gap of no width would meet it

@@ -1,4 +1,4 @@
-//! The conditions on the limits of several contacts, and their derivatives by the limits.
+//! The conditions on the limits of several contacts, and their changes in a step.
 
 use super::Several;
 use super::one_of_several::OneOfSeveral;
@@ -243,8 +243,8 @@ impl<T: Real> Several<T> {
         [first, second + half * first * first]
     }
 
-    /// Makes the load an unknown, in place of the first or the last free limit, which stays where it
-    /// is.
+    /// Makes the load an unknown. The condition for it: the first or the last free limit stays
+    /// where it is.
     pub fn by_load(&self, side: Side, system: &mut System<T>) {
         let [zero, one] = [T::zero(), T::one()];
         let mut others = vec![zero; system.residual.len()];
