@@ -55,13 +55,19 @@ pub(super) fn moments<T: Real>(
     angles.reverse();
 
     sampler.missed = T::zero();
-    let between = angles.windows(2).filter(|ends| ends[0] < ends[1]);
-    let mut panels: Vec<_> = between.map(|ends| Segment::new(ends[0], ends[1])).collect();
+    let mut panels = Vec::with_capacity(angles.len() - 1);
+    for ends in angles.windows(2).filter(|ends| ends[0] < ends[1]) {
+        let mut panel = Segment::new(ends[0], ends[1]);
+        panel.refine(sampler, gap, on)?;
+        panels.push(panel);
+    }
     let small = T::epsilon().powf(T::of(0.625));
-    for weights in WEIGHTS.iter() {
-        let size = total(&panels, |panel| panel.sums[2]);
-        for panel in panels.iter_mut().filter(|panel| panel.change > small * size) {
-            panel.refine(weights, sampler, gap, on)?;
+    for i in 0..panels.len() {
+        loop {
+            let size = total(&panels, |panel| panel.sums[2]);
+            if panels[i].change <= small * size || !panels[i].refine(sampler, gap, on)? {
+                break;
+            }
         }
     }
     let [mean, first, size] = [0, 1, 2].map(|i| total(&panels, |panel| panel.sums[i]));
@@ -87,25 +93,25 @@ fn total<T: Real>(panels: &[Segment<T>], part: impl Fn(&Segment<T>) -> T) -> T {
 struct Segment<T> {
     from: T,
     to: T,
-    /// Number of intervals of the last rule.
-    intervals: usize,
+    /// Index into `WEIGHTS` of the rule to use next.
+    rule: usize,
     /// Samples at the points of the finest rule, taken as needed.
     slope: [Option<T>; FINEST],
     /// Integrals of g, g cos θ and |g|, divided by π.
     sums: [T; 3],
-    /// Largest change of the first two at the last refinement; infinite if there is none yet.
+    /// Largest change of the first two at the last refinement.
     change: T,
 }
 
 impl<T: Real> Segment<T> {
     fn new(from: T, to: T) -> Self {
-        let (sums, change) = ([T::zero(); 3], T::one() / T::zero());
-        Self { from, to, intervals: 0, slope: [None; FINEST], sums, change }
+        let sums = [T::zero(); 3];
+        Self { from, to, rule: 0, slope: [None; FINEST], sums, change: T::zero() }
     }
 
     /// Returns the error of the integrals by the highest coefficients of the interpolant.
     fn plateau(&self) -> T {
-        let m = self.intervals;
+        let m = FEWEST_INTERVALS << (self.rule - 1);
         let sine = |i: usize| T::of((PI * (i % (2 * m)) as f64 / m as f64).sin());
         let coefficient = |degree: usize| {
             let slope = |i: usize| self.slope[i * (FINEST / m)].unwrap_or_else(T::zero);
@@ -116,17 +122,15 @@ impl<T: Real> Segment<T> {
         highest * (self.to - self.from) / T::pi()
     }
 
-    /// Applies the rule of these weights.
+    /// Applies the next rule; `false` when there is none.
     fn refine(
         &mut self,
-        weights: &[f64],
         sampler: &mut Sampler<T>,
         gap: &Gap<'_, T>,
         on: Interval<T>,
-    ) -> Result<(), ContactError<T>> {
-        let is_first = self.intervals == 0;
-        self.intervals = weights.len() + 1;
-        let stride = FINEST / self.intervals;
+    ) -> Result<bool, ContactError<T>> {
+        let Some(weights) = WEIGHTS.get(self.rule) else { return Ok(false) };
+        let stride = FINEST / (weights.len() + 1);
         let width = self.to - self.from;
         let mut sums = [T::zero(); 3];
         for (j, &weight) in weights.iter().enumerate() {
@@ -149,11 +153,13 @@ impl<T: Real> Segment<T> {
         }
         let scale = T::of(0.5) * width / T::pi();
         let sums = sums.map(|sum| sum * scale);
-        // The first rule has nothing to compare with.
-        if !is_first {
-            self.change = (sums[0] - self.sums[0]).abs().max((sums[1] - self.sums[1]).abs());
+        self.change = (sums[0] - self.sums[0]).abs().max((sums[1] - self.sums[1]).abs());
+        if self.rule == 0 {
+            // Nothing to compare with yet.
+            self.change = T::max_value().unwrap_or(sums[2] / T::epsilon());
         }
         self.sums = sums;
-        Ok(())
+        self.rule += 1;
+        Ok(true)
     }
 }
