@@ -19,6 +19,10 @@ use std::sync::LazyLock;
 /// Number of angles at which the pressure is evaluated, and of coefficients.
 pub(crate) const POINTS: usize = 32;
 
+/// Number of stretches beyond all contacts for which there is room from the first: 32 doublings on
+/// either side.
+const MOST_STRETCHES: usize = 64;
+
 /// Table of cos(m π/(2 POINTS)).
 static COSINES: LazyLock<[f64; 4 * POINTS]> =
     LazyLock::new(|| std::array::from_fn(|m| (m as f64 * PI / (2 * POINTS) as f64).cos()));
@@ -148,6 +152,7 @@ impl<T: Real> ExteriorFields<T> {
     pub fn gather(&mut self, [from, to]: [T; 2]) {
         let Self { each, on, places, far: [potential, slope] } = self;
         places.clear();
+        places.reserve(each.len() + MOST_STRETCHES);
         on.clear();
         on.extend(each.iter().map(|field| field.on));
         // One contact is summed by itself.
