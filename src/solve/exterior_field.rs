@@ -152,11 +152,12 @@ impl<T: Real> ExteriorFields<T> {
     pub fn gather(&mut self, [from, to]: [T; 2]) {
         let Self { each, on, places, far: [potential, slope] } = self;
         places.clear();
+        // One contact is summed by itself.
+        let [first, .., last] = &each[..] else { return };
+        let [first, last] = [first.on, last.on];
         places.reserve(each.len() + MOST_STRETCHES);
         on.clear();
         on.extend(each.iter().map(|field| field.on));
-        // One contact is summed by itself.
-        let [first, .., last] = on[..] else { return };
         // Beyond all contacts, stretches each as long as its distance.
         let (mut right, mut width) = (first.left, first.right - first.left);
         while right > from {
