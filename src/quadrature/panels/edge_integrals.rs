@@ -5,11 +5,13 @@
 //! contact, each is a span of θ for Gauss's rule.
 
 use super::half_angle::{Arc, HalfAngle, Sines};
-use super::near_far_sum::{NearFarSum, Seen};
 use super::panel::{Panel, Series, spans, within};
 use super::reexpansion::{PanelAngles, reexpanded};
+use super::treecode::GroupMoments;
 use crate::numerics::CompensatedSum;
-use crate::numerics::chebyshev::{MAX_SIZE, by_size, derivative, evaluate, moved, size_for};
+use crate::numerics::chebyshev::{
+    MAX_SIZE, by_size, derivative, evaluate, moved, size_for, values,
+};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::{MomentDerivatives, Moments};
 use crate::{Interval, Real};
@@ -203,9 +205,26 @@ pub(super) fn cosines<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> (Series<
     if let [panel] = panels {
         return (panel.over(on), true);
     }
-    let mut sum = NearFarSum::new();
-    sum.set(panels, on, Seen::Outside);
-    (sum.cosines(), false)
+    let (mut sums, mut left) =
+        (GroupMoments::new(on.left, on.half_width()), HalfAngle::of(on, on.left));
+    for (panel, [from, to]) in spans(panels, on) {
+        let right = HalfAngle::of(on, to);
+        let arc = Arc::new(to - from, left, right, on.right - on.left);
+        let rule = GaussLegendre::suited(panel.length, arc.tangent);
+        let (start, by_x) = (panel.local(from), T::one() / panel.half());
+        let share = arc.tangent * T::of(2.0) * T::frac_1_pi();
+        for block in 0..rule.n / W {
+            let [y, weight] = arc.nodes::<W>(rule, block);
+            let along = y.map(|y| y - arc.to_left);
+            let g = values(panel.coefficients(), &along.map(|y| start + y * by_x));
+            sums.add(from, &std::array::from_fn(|i| [along[i], share * weight[i] * g[i]]));
+        }
+        left = right;
+    }
+    let (mut series, sums) = ([T::zero(); MAX_SIZE], sums.values());
+    series[..sums.len()].copy_from_slice(&sums);
+    series[0] *= T::of(0.5);
+    ((series, sums.len()), false)
 }
 
 /// Adds the integrals over one of several spans.

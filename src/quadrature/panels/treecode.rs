@@ -94,7 +94,7 @@ pub(super) fn group<T: Real>(
 const W: usize = 8;
 
 /// Integrals `∫ g T_k dθ` over a group, in lanes.
-struct GroupMoments<T> {
+pub(super) struct GroupMoments<T> {
     left: T,
     by_half: T,
     lanes: [[T; W]; POINTS],
@@ -102,12 +102,12 @@ struct GroupMoments<T> {
 
 impl<T: Real> GroupMoments<T> {
     /// Prepares the sums for a group with this left end and half of its length.
-    fn new(left: T, half: T) -> Self {
+    pub fn new(left: T, half: T) -> Self {
         Self { left, by_half: T::one() / half, lanes: [[T::zero(); W]; POINTS] }
     }
 
     /// Adds nodes, given by their distances from `from`.
-    fn add(&mut self, from: T, nodes: &[[T; 2]; W]) {
+    pub fn add(&mut self, from: T, nodes: &[[T; 2]; W]) {
         let offset = from - self.left;
         let s: [T; W] = std::array::from_fn(|i| (offset + nodes[i][0]) * self.by_half - T::one());
         let mut t0 = nodes.map(|[_, weighted]| weighted);
@@ -120,7 +120,7 @@ impl<T: Real> GroupMoments<T> {
         }
     }
 
-    fn values(&self) -> [T; POINTS] {
+    pub fn values(&self) -> [T; POINTS] {
         self.lanes.map(|lanes| lanes.into_iter().fold(T::zero(), |sum, lane| sum + lane))
     }
 }
