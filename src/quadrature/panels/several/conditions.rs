@@ -2,7 +2,7 @@
 
 use super::Several;
 use super::one_of_several::OneOfSeveral;
-use super::system::{Besides, Poles, System};
+use super::system::{Besides, System};
 use crate::numerics::FarField;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Ends, Interval, Real, Side};
@@ -23,8 +23,9 @@ impl<T: Real> Several<T> {
         let gap = |pair: &[Interval<T>]| Interval { left: pair[0].right, right: pair[1].left };
         let part = |k: usize, x: T| self.parts[k].seen_from(x);
         system.far.set(contacts, contacts.windows(2).map(gap), &part);
-        let System { residual, open, limits, at_ends, slopes, rows, .. } = system;
-        for known in [residual, open, limits, at_ends, slopes, rows] {
+        let System { residual, open, limits, at_ends, slopes, rows, poles, .. } = system;
+        let [at, squares] = [&mut poles.at, &mut poles.squares];
+        for known in [residual, open, limits, at_ends, slopes, rows, at, squares] {
             known.clear();
         }
         for (i, on) in contacts.iter().enumerate() {
@@ -36,26 +37,10 @@ impl<T: Real> Several<T> {
                 system.slopes.push((x - on[side.other()]) / (weight * weight));
             }
         }
-        self.poles(&mut system.poles);
         self.balance(load, system);
         for k in 0..self.count - 1 {
             self.close(k, system);
         }
-    }
-
-    /// Sets the poles of the step.
-    fn poles(&self, poles: &mut Poles<T>) {
-        let (corners, hull, zeros) = (self.corners(), self.hull(), self.weight.zeros());
-        poles.at.clear();
-        poles.at.extend_from_slice(zeros);
-        let corners = Side::BOTH.into_iter().filter(|&side| corners[side]);
-        poles.at.extend(corners.map(|side| hull[side]));
-        poles.squares.clear();
-        let gaps = zeros.iter().zip(self.contacts().windows(2)).enumerate();
-        poles.squares.extend(gaps.map(|(k, (&x, on))| {
-            self.weight.in_gap(k, x, [x - on[0].right, on[1].left - x]).powi(2)
-        }));
-        poles.centre = self.has_no_corners().then(|| hull.plain().centre());
     }
 
     /// Returns V at a place in a gap; near contact `near`, given the distance from it.
@@ -75,32 +60,37 @@ impl<T: Real> Several<T> {
         part.at_end(side) + self.outside(others, x, None) + far.far(k, x)
     }
 
-    /// Adds the balance conditions and the load condition.
+    /// Adds the poles of the step, the balance conditions and the load condition.
     fn balance(&self, load: T, system: &mut System<T>) {
-        let (zero, one, pi) = (T::zero(), T::one(), T::pi());
+        let (zero, one, per_pi) = (T::zero(), T::one(), -T::frac_1_pi());
+        let (hull, corners) = (self.hull(), self.corners());
         for (k, &x) in self.weight.zeros().iter().enumerate() {
+            let ends = [x - self.parts[k].on.right, self.parts[k + 1].on.left - x];
+            system.poles.at.push(x);
+            system.poles.squares.push(self.weight.in_gap(k, x, ends).powi(2));
             let share = |on: Interval<T>| one / (x - on.right).abs().min((x - on.left).abs());
             let value = self.in_gap(&system.far, k, x, None);
             system.add(value, self.moments_error(share));
         }
-        let (total, n) = (self.sum(|part| part.moments.m0), system.poles.at.len());
-        let Some(centre) = system.poles.centre else {
-            system.load_row = system.residual.len();
-            system.rows.resize(n, -one / pi);
-            system.rows.resize(n + system.load_row, zero);
-            return system.add(total - load, self.moments_error(|_| one) / pi);
-        };
-        system.add(pi * total, self.moments_error(|_| one));
+        for side in Side::BOTH.into_iter().filter(|&side| corners[side]) {
+            system.poles.at.push(hull[side]);
+            system.poles.squares.push(zero);
+        }
+        system.poles.centre = self.has_no_corners().then(|| hull.plain().centre());
+        let (total, n) = (self.sum(|part| part.moments.m0), system.poles.count());
+        system.rows.resize(n, if self.has_no_corners() { zero } else { per_pi });
+        system.rows.resize(2 * n, zero);
+        let (mut borne, mut error) = (total, self.moments_error(|_| one));
+        if let Some(centre) = system.poles.centre {
+            system.add(T::pi() * total, error);
+            system.rows[n - 1] = per_pi;
+            system.rows[2 * n - 1] = T::of(2.0) * self.afar(&system.poles.at, centre)[0] * per_pi;
+            borne = self.powers(centre)[0];
+            error =
+                self.moments_error(|on| (on.left - centre).abs().max((on.right - centre).abs()));
+        }
         system.load_row = system.residual.len();
-        system.rows.resize(n, zero);
-        system.rows.push(-one / pi);
-        system.rows.resize(2 * n + 1, zero);
-        system.rows.push(-T::of(2.0) * self.afar(centre)[0] / pi);
-        let borne = self.sum(|OneOfSeveral { on, moments, .. }| {
-            (on.centre() - centre) * moments.m0 + on.half_width() * moments.m1
-        });
-        let reach = |on: Interval<T>| (on.left - centre).abs().max((on.right - centre).abs());
-        system.add(borne - load, self.moments_error(reach) / pi);
+        system.add(borne - load, error * T::frac_1_pi());
     }
 
     /// Adds the condition that a gap closes at both ends.
@@ -114,7 +104,7 @@ impl<T: Real> Several<T> {
         let mut by_ends = [zero; 2];
         let mut row = std::mem::take(&mut system.row);
         row.clear();
-        row.resize(system.poles.count() + system.load_row, zero);
+        row.resize(2 * system.poles.count(), zero);
         self.through_gap(k, &system.far, |x, [from_left, to_right], value, root, dx| {
             let scale = root * dx;
             let share = scale * self.without_zero(k, system, x, value);
@@ -228,14 +218,12 @@ impl<T: Real> Several<T> {
         powers
     }
 
-    /// Returns ρ₁ and ρ₂: far from the contacts `p/S` is `1 + ρ₁/x + ρ₂/x²`, times 1/x without
-    /// corners, with x counted from x₀.
-    fn afar(&self, about: T) -> [T; 2] {
-        let (half, hull, corners) = (T::of(0.5), self.hull(), self.corners());
+    /// Returns ρ₁ and ρ₂, given the poles of a step: far from the contacts `p/S` is
+    /// `1 + ρ₁/x + ρ₂/x²`, times 1/x without corners, with x counted from x₀.
+    fn afar(&self, poles: &[T], about: T) -> [T; 2] {
+        let half = T::of(0.5);
         let limits = self.contacts().iter().flat_map(|on| [(on.left, half), (on.right, half)]);
-        let zeros = self.weight.zeros().iter().copied();
-        let corners = Side::BOTH.into_iter().filter(|&side| corners[side]).map(|side| hull[side]);
-        let all = limits.chain(zeros.chain(corners).map(|x| (x, -T::one())));
+        let all = limits.chain(poles.iter().map(|&x| (x, -T::one())));
         let [first, second] = all.fold([T::zero(); 2], |[first, second], (x, share)| {
             let x = x - about;
             [first + share * x, second + share * half * x * x]
@@ -272,14 +260,11 @@ impl<T: Real> Several<T> {
         *others.last_mut().unwrap_or(&mut T::zero()) = -system.over_last;
         let balance = if no_corners { zeros..zeros + 1 } else { 0..zeros };
         others[balance].fill(pi);
-        others[system.load_row] = self.afar(hull.plain().centre())[0];
-        let powers = self.powers(at);
-        let [first, by_unknown] = self.afar(at);
+        others[system.load_row] = self.afar(&system.poles.at, hull.plain().centre())[0];
+        let borne = self.powers(at)[usize::from(no_corners)];
+        let [first, by_unknown] = self.afar(&system.poles.at, at);
         let reach = (hull.left - at).abs().max((hull.right - at).abs());
-        let (reach, borne) = match no_corners {
-            true => (reach * reach, powers[1]),
-            false => (reach, powers[0]),
-        };
+        let reach = if no_corners { reach * reach } else { reach };
         system.add(borne - first * load, self.sum(|part| part.moments.error) * reach);
         let by_limit = |i: usize| {
             let away = system.limits[i] - at;

@@ -64,7 +64,7 @@ pub(crate) struct System<T> {
 pub(super) struct Poles<T> {
     /// Zeros of p, then corners.
     pub at: Vec<T>,
-    /// `A_k` of each zero.
+    /// `A_k` of each zero, and nothing for a corner.
     pub squares: Vec<T>,
     /// Center c; `None` with corners.
     pub centre: Option<T>,
@@ -89,18 +89,13 @@ impl<T: Real> Poles<T> {
     /// Adds a share of Q at a place to a row.
     pub fn add(&self, x: T, share: T, row: &mut [T]) {
         let (by_constants, by_known) = row.split_at_mut(self.count());
-        let zeros = self.at.iter().zip(&self.squares);
-        for ((by_constant, by_zero), (&at, &square)) in
-            by_constants.iter_mut().zip(by_known.iter_mut()).zip(zeros)
+        let both = by_constants.iter_mut().zip(by_known.iter_mut());
+        for ((by_constant, by_zero), (&at, &square)) in both.zip(self.at.iter().zip(&self.squares))
         {
             let away = T::one() / (x - at);
             let by_pole = share * away;
             *by_constant += by_pole;
             *by_zero -= square * by_pole * away;
-        }
-        let corners = self.squares.len()..self.at.len();
-        for (by_constant, &at) in by_constants[corners.clone()].iter_mut().zip(&self.at[corners]) {
-            *by_constant += share / (x - at);
         }
         if let (Some(centre), [.., by_constant], [.., by_total]) =
             (self.centre, by_constants, by_known)
@@ -144,8 +139,8 @@ impl<T: Real> System<T> {
 
     /// Prepares for steps; `false` if the limits do not follow from the conditions.
     pub fn factor(&mut self) -> bool {
-        let (n, stride) = (self.poles.count(), self.poles.count() + self.load_row);
-        let is_regular = self.linear.factor(self.rows.chunks_exact(stride).map(|row| &row[..n]));
+        let n = self.poles.count();
+        let is_regular = self.linear.factor(self.rows.chunks_exact(2 * n).map(|row| &row[..n]));
         if let (true, Some(mut besides)) = (is_regular, self.besides.take()) {
             let others = std::mem::take(&mut besides.others);
             self.solve(&others, &mut besides.others);
@@ -166,16 +161,17 @@ impl<T: Real> System<T> {
         let Self { poles, row, known, .. } = self;
         let n = poles.count();
         let (balance, others) = values.split_at(self.load_row);
-        let rows = self.rows.chunks_exact(n + self.load_row).zip(others);
+        let rows = self.rows.chunks_exact(2 * n).zip(others);
         row.clear();
-        row.extend(rows.map(|(row, &value)| value + dot(&row[n..], balance)));
+        row.extend(rows.map(|(row, &value)| value + dot(&row[n..n + balance.len()], balance)));
         // The constants with the sign of a step, so the known part of Q, too.
         self.linear.solve(row, known);
         known.extend(balance.iter().map(|&value| -value));
+        known.resize(2 * n, T::zero());
         step.clear();
         for i in self.free.clone() {
             row.clear();
-            row.resize(known.len(), T::zero());
+            row.resize(2 * n, T::zero());
             poles.add(self.limits[i], -T::of(2.0) / (self.slopes[i] * self.at_ends[i]), row);
             step.push(dot(row, known));
         }
