@@ -318,7 +318,7 @@ impl<T: Real> PanelSet<T> {
         neighbour: Option<Panel<T>>,
     ) -> Result<(), ContactError<T>> {
         self.waiting.clear();
-        // The noise is that of other pieces, or of other parts of these.
+        // The noise measured last belongs to other pieces, or to other parts of these.
         (self.noise, self.measured) = (None, 0);
         let mut trial = Candidate::new(x);
         self.try_out(gap, &mut trial)?;

@@ -64,7 +64,7 @@ pub(crate) struct System<T> {
 pub(super) struct Poles<T> {
     /// Zeros of p, then corners.
     pub at: Vec<T>,
-    /// `A_k` of each zero, and nothing for a corner.
+    /// `A_k` of each zero; 0 for a corner.
     pub squares: Vec<T>,
     /// Center c; `None` with corners.
     pub centre: Option<T>,
