@@ -55,7 +55,7 @@ class Counted:
 
 # Number of calls of the curves in one solve, and of calls for single points, by which the first
 # point of each piece is found.
-CALLS = {"three": (example_three, 11, 0), "four": (example_four, 21, 3), "five": (example_five, 27, 4)}
+CALLS = {"three": (example_three, 11, 0), "four": (example_four, 17, 1), "five": (example_five, 20, 0)}
 
 
 @pytest.mark.parametrize("example", CALLS)

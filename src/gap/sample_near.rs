@@ -21,7 +21,7 @@ use super::{Cost, Gap};
 use crate::profile::{Noise, Piece, first_turn};
 use crate::real::is_finite;
 use crate::search::{Bracket, SearchError, try_find_with_slope};
-use crate::{Body, ContactError, CurvePoint, InputError, ProfileError, Real, Side, SolveError};
+use crate::{Body, ContactError, InputError, ProfileError, Real, Side, SolveError};
 use curve_samples::CurveSamples;
 use inverse_hermite::{InverseHermite, is_between, newton};
 
@@ -74,7 +74,8 @@ impl<T: Real> SampleCache<T> {
 
 /// Samples a body near the targets, which rise and lie on one piece of it. Each may be missed by
 /// its `room`. Afterwards the cache has one sample for each target, rising too. A first estimate
-/// is content with the series of the survey, where it has them.
+/// is content with the series of the survey, where it has them; otherwise they show where to
+/// evaluate the first points of a piece.
 // As a call that is not inlined it costs a bare solve 2 % more instructions.
 #[inline(always)]
 pub(crate) fn sample_near<const N: usize, T: Real>(
@@ -91,15 +92,12 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     if let Some(slope) = piece.curve.slope_at(targets[0]) {
         (cache.direct, cache.piece) = (true, None);
         let zero = T::zero();
-        let mut curve_samples =
-            targets.map(|x| CurveSample { k: zero, x, y: zero, dx: zero, slope });
-        for (i, curve_sample) in curve_samples.iter_mut().enumerate() {
-            if i > 0 {
-                curve_sample.slope = piece.curve.slope_at(curve_sample.x).unwrap_or(slope);
-            }
-            if !curve_sample.slope.is_finite() {
-                return Err(not_finite(body, "slope_at(x)", curve_sample.x, curve_sample.slope));
-            }
+        let curve_samples = targets.map(|x| {
+            let slope = piece.curve.slope_at(x).unwrap_or(slope);
+            CurveSample { k: zero, x, y: zero, dx: zero, slope }
+        });
+        if let Some(bad) = curve_samples.iter().find(|sample| !sample.slope.is_finite()) {
+            return Err(not_finite(body, "slope_at(x)", bad.x, bad.slope));
         }
         cache.curve_samples.set([curve_samples[0], curve_samples[N - 1]], &curve_samples);
         return Ok(());
@@ -115,16 +113,22 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     }
     let (ends, rises) = (cache.curve_samples.ends(), piece.k[0] < piece.k[1]);
     let batch = TargetBatch { gap, body, piece, ends, rises, targets, room };
+    let (known, guides) = (&mut cache.curve_samples, cache.guides.iter().flatten());
+    let mut own = guides.filter(|(piece, _)| *piece == index).map(|(_, guide)| guide);
     // A series has no exact derivatives: dual numbers need points of the curve.
     if is_estimate && T::COMPONENTS == 1 {
-        let own = cache.guides.iter().flatten().filter(|(piece, _)| *piece == index);
-        if let Some(samples) = own.filter_map(|(_, guide)| batch.by_series(guide)).next() {
-            cache.curve_samples.set(ends, &samples);
-            cache.curve_samples.are_guessed = true;
+        if let Some(samples) = own.find_map(|guide| batch.by_series(guide)) {
+            known.set(ends, &samples);
+            known.are_guessed = true;
             return Ok(());
         }
+    } else if known.len() == 0
+        && let Some(sample) = own.find_map(|guide| guide.sample_near(targets[N / 2]))
+    {
+        known.set(ends, &[sample]);
+        known.are_guessed = true;
     }
-    batch.take(&mut cache.curve_samples, cost).map_err(|error| turns(piece, error))
+    batch.take(known, cost).map_err(|error| turns(piece, error))
 }
 
 /// Places near which samples are wanted.
@@ -203,12 +207,9 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         curve_samples: &mut [CurveSample<T>; N],
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
-        let zero = T::zero();
-        let nowhere = CurvePoint { x: zero, y: zero, dx: zero, dy: zero };
-        let (mut asked, mut k) = ([0; N], [zero; N]);
+        let (mut asked, mut k) = ([0; N], [T::zero(); N]);
         let (row, len) = (&known.row[..], known.len());
-        let (mut count, mut right) = (0, 1);
-        let mut from = 0;
+        let (mut count, mut right, mut from) = (0, 1, 0);
         let mut way = InverseHermite::new(&row[0], &row[1]);
         for (i, &target) in self.targets.iter().enumerate() {
             while right <= len && row[right].x <= target {
@@ -236,7 +237,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             (asked[count], k[count]) = (i, way.parameter(target, one, other));
             count += 1;
         }
-        let mut points = [nowhere; N];
+        let mut points = [self.piece.ends[0]; N];
         if count > 0 {
             self.piece.curve.at_many(&k[..count], &mut points[..count]);
         }

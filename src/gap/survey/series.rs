@@ -138,8 +138,8 @@ impl<T: Real> Series<T> {
 
     /// Returns the point of the series at x; `None` outside the outermost points.
     pub fn sample_near(&self, x: T) -> Option<CurveSample<T>> {
-        let between = [self.points[0].x, self.points[NODES - 1].x];
-        if !(self.doubt.is_finite() && x > between[0] && x < between[1]) {
+        let [from, to] = self.between;
+        if !(self.doubt.is_finite() && x > from && x < to) {
             return None;
         }
         let t = self.parameter(x);
