@@ -62,6 +62,27 @@ fn much_noise_is_seen_reported_and_not_followed() {
     check_noise(-8..-3);
 }
 
+/// Three crests of a fine wave, far from the origin: the rounding of x changes the slope by far more
+/// than the tolerance of the panels.
+#[test]
+fn rounding_of_x_is_not_taken_for_a_feature() {
+    let wave = 1600.0 * PI;
+    let costs: Vec<usize> = (100..400)
+        .map(|crest| {
+            let top = 2.0 * PI * f64::from(crest) / wave;
+            let around = [top - 9.0 / wave, top + 9.0 / wave];
+            let body = graph(around[0], around[1], move |x| {
+                [-0.3 * (wave * x).cos() / wave, 0.3 * (wave * x).sin()]
+            });
+            let cost = on_flat(body).solve(Control::Load(3e-5)).unwrap().cost();
+            cost.evaluations + cost.heights
+        })
+        .collect();
+    let [least, most] = [costs.iter().min(), costs.iter().max()].map(Option::unwrap);
+    println!("{least} to {most} evaluations");
+    assert!(*most <= least + least / 4, "{least} to {most}");
+}
+
 /// Solves the circle of radius 1 under F = L²/2, where its height `1 - cos k` keeps few digits or
 /// none; the slope keeps all digits, and decides.
 fn touch_lightly<T: linecontact::Real>(half_widths: &[f64], tolerance: f64) {

@@ -131,7 +131,8 @@ impl<T: Real> PanelSet<T> {
         let size = |i: usize| lower[i].abs() + upper[i].abs();
         let steepest = (0..N).fold(T::zero(), |most, i| most.max(size(i)));
         let least = (self.tolerance * self.size).max(T::epsilon() * steepest);
-        let allowed = T::of(MAX_MISMATCH) * panel.error.max(least);
+        // Both the place and the nodes are rounded.
+        let allowed = T::of(MAX_MISMATCH) * panel.error.max(least) + T::of(2.0) * panel.noise;
         let is_missed = |&i: &usize| {
             let missed = (panel.value(places[i]) - (upper[i] - lower[i])).abs();
             on.contains(places[i]) && missed > allowed
