@@ -1,70 +1,46 @@
-//! A square system of linear equations, solved by Gaussian elimination with partial pivoting of
-//! scaled rows.
+//! A square system of linear equations, solved by Gaussian elimination row by row; the pivot of a
+//! row is its largest element.
 //!
 //! Its storage is kept from one system to the next.
 
 use super::dot;
 use crate::Real;
-use crate::real::same;
+
+/// Number of rows that are subtracted from another at a time: it is read and written once for all.
+const TOGETHER: usize = 4;
 
 #[derive(Clone)]
 pub(crate) struct LinearSystem<T> {
-    n: usize,
     /// Factors, row by row: below the diagonal the factors of the elimination.
     factors: Vec<T>,
-    /// Equation that stands in each row, and the divisor of each equation.
+    /// Unknown that stands in each column.
     order: Vec<usize>,
-    scales: Vec<T>,
 }
 
 impl<T: Real> LinearSystem<T> {
     pub fn new() -> Self {
-        Self { n: 0, factors: Vec::new(), order: Vec::new(), scales: Vec::new() }
+        Self { factors: Vec::new(), order: Vec::new() }
     }
 
     /// Factors a square matrix given row by row; `false` if it is singular, or not finite.
     pub fn factor<'m>(&mut self, rows: impl ExactSizeIterator<Item = &'m [T]>) -> bool {
-        let (zero, n) = (T::zero(), rows.len());
-        self.n = n;
+        let n = rows.len();
         self.order.clear();
         self.order.extend(0..n);
         self.factors.clear();
-        self.scales.clear();
-        for row in rows {
-            let scale = row.iter().fold(zero, |max, a| max.max(a.abs())).component(0);
-            if !(row.len() == n && scale > zero && scale.is_finite()) {
+        rows.for_each(|row| self.factors.extend_from_slice(row));
+        for i in 0..n {
+            let (above, rest) = self.factors.split_at_mut(i * n);
+            eliminate(above, &mut rest[..n]);
+            let larger =
+                |best: usize, k: usize| if rest[k].abs() > rest[best].abs() { k } else { best };
+            let pivot = (i..n).fold(i, larger);
+            if rest[pivot].is_zero() || !rest[i..n].iter().all(|a| a.is_finite()) {
                 return false;
             }
-            self.scales.push(scale);
-            self.factors.extend(row.iter().map(|&a| a / scale));
-        }
-        for column in 0..n {
-            let size = |row: usize| self.factors[row * n + column].abs();
-            let larger = |best: usize, row: usize| if size(row) > size(best) { row } else { best };
-            let pivot = (column..n).fold(column, larger);
-            // NaN cannot be a pivot either.
-            let usable = size(pivot) > zero;
-            if !usable {
-                return false;
-            }
-            if pivot != column {
-                self.order.swap(pivot, column);
-                for k in 0..n {
-                    self.factors.swap(pivot * n + k, column * n + k);
-                }
-            }
-            let (above, below) = self.factors.split_at_mut((column + 1) * n);
-            let pivot_row = &above[column * n..];
-            for row in below.chunks_exact_mut(n) {
-                let factor = row[column] / pivot_row[column];
-                row[column] = factor;
-                // A derivative may not be zero where its value is.
-                if !same(factor, T::zero()) {
-                    let rest = column + 1..n;
-                    for (a, &pivot) in row[rest.clone()].iter_mut().zip(&pivot_row[rest]) {
-                        *a -= factor * pivot;
-                    }
-                }
+            if pivot != i {
+                self.order.swap(pivot, i);
+                self.factors.chunks_exact_mut(n).for_each(|row| row.swap(pivot, i));
             }
         }
         true
@@ -72,19 +48,45 @@ impl<T: Real> LinearSystem<T> {
 
     /// Solves the factored system.
     pub fn solve(&self, right_side: &[T], solution: &mut Vec<T>) {
-        let n = self.n;
+        let n = self.order.len();
         solution.clear();
-        solution.extend(self.order.iter().map(|&row| right_side[row] / self.scales[row]));
-        let first = solution.iter().position(|&value| !same(value, T::zero())).unwrap_or(n);
-        for row in first..n {
+        solution.extend_from_slice(right_side);
+        for row in 0..n {
             let factors = &self.factors[row * n..(row + 1) * n];
-            let known = dot(&factors[first..row], &solution[first..row]);
+            let known = dot(&factors[..row], &solution[..row]);
             solution[row] -= known;
         }
         for row in (0..n).rev() {
             let factors = &self.factors[row * n..(row + 1) * n];
             let known = dot(&factors[row + 1..], &solution[row + 1..]);
             solution[row] = (solution[row] - known) / factors[row];
+        }
+        solution.resize(2 * n, T::zero());
+        for (i, &unknown) in self.order.iter().enumerate() {
+            solution[n + unknown] = solution[i];
+        }
+        solution.drain(..n);
+    }
+}
+
+/// Eliminates from a row the unknowns of the factored rows above it, several at a time.
+fn eliminate<T: Real>(above: &[T], row: &mut [T]) {
+    let (zero, n) = (T::zero(), row.len());
+    for (block, pivots) in above.chunks(TOGETHER * n).enumerate() {
+        let (first, count) = (TOGETHER * block, pivots.len() / n);
+        let mut factors = [zero; TOGETHER];
+        for j in 0..count {
+            let known = |rest: T, l: usize| rest - factors[l] * pivots[l * n + first + j];
+            factors[j] = (0..j).fold(row[first + j], known) / pivots[j * n + first + j];
+            row[first + j] = factors[j];
+        }
+        let row = &mut row[first + count..];
+        let rests: [&[T]; TOGETHER] = std::array::from_fn(|j| {
+            let end = (j.min(count - 1) + 1) * n;
+            &pivots[end - row.len()..end]
+        });
+        for i in 0..row.len() {
+            row[i] -= (0..TOGETHER).fold(zero, |sum, j| sum + factors[j] * rests[j][i]);
         }
     }
 }

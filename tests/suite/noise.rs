@@ -62,8 +62,8 @@ fn much_noise_is_seen_reported_and_not_followed() {
     check_noise(-8..-3);
 }
 
-/// Three crests of a fine wave, far from the origin: the rounding of x changes the slope by far more
-/// than the tolerance of the panels.
+/// Three crests of a fine wave, far from the origin: the rounding of x changes the slope by far
+/// more than the tolerance of the panels.
 #[test]
 fn rounding_of_x_is_not_taken_for_a_feature() {
     let wave = 1600.0 * PI;
