@@ -92,12 +92,13 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     if let Some(slope) = piece.curve.slope_at(targets[0]) {
         (cache.direct, cache.piece) = (true, None);
         let zero = T::zero();
-        let curve_samples = targets.map(|x| {
-            let slope = piece.curve.slope_at(x).unwrap_or(slope);
-            CurveSample { k: zero, x, y: zero, dx: zero, slope }
-        });
-        if let Some(bad) = curve_samples.iter().find(|sample| !sample.slope.is_finite()) {
-            return Err(not_finite(body, "slope_at(x)", bad.x, bad.slope));
+        let mut curve_samples =
+            targets.map(|x| CurveSample { k: zero, x, y: zero, dx: zero, slope });
+        for sample in &mut curve_samples {
+            sample.slope = piece.curve.slope_at(sample.x).unwrap_or(slope);
+            if !sample.slope.is_finite() {
+                return Err(not_finite(body, "slope_at(x)", sample.x, sample.slope));
+            }
         }
         cache.curve_samples.set([curve_samples[0], curve_samples[N - 1]], &curve_samples);
         return Ok(());
@@ -163,14 +164,6 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
     fn take(&self, known: &mut CurveSamples<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let (targets, ends) = (self.targets, self.ends);
         let mut curve_samples = [ends[0]; N];
-        if known.are_guessed {
-            // Good enough to aim at the targets, not to search between them.
-            let is_near = self.batch(known, &mut curve_samples, cost)?;
-            known.set(ends, if is_near { &curve_samples } else { &[] });
-            if is_near {
-                return Ok(());
-            }
-        }
         // On a range much longer than the span of the targets their places are uncertain: one is
         // found, and the others are sought from there.
         let [first, last] = [targets[0], targets[N - 1]];
@@ -178,7 +171,9 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         let [leftmost, rightmost] = [known.row[1], known.row[len]];
         let far = last - first < T::of(0.25) * (ends[1].x - ends[0].x);
         let beside = first <= ends[0].x || last >= ends[1].x;
-        if len == 0 && far && !beside {
+        if known.are_guessed {
+            // Good enough to aim at the targets.
+        } else if len == 0 && far && !beside {
             let found = self.find(N / 2, ends, cost)?;
             known.set(ends, &[found]);
         } else if len > 0 && first > rightmost.x && !beside {
@@ -189,6 +184,9 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             known.set(ends, &[found, leftmost]);
         }
         if !self.batch(known, &mut curve_samples, cost)? {
+            if known.are_guessed {
+                known.set(ends, &[]);
+            }
             self.find_missed(known, &mut curve_samples, cost)?;
         }
         known.set(ends, &curve_samples);
