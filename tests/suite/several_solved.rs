@@ -473,3 +473,22 @@ fn up_to_a_merge_two_contacts_are_two_and_one_from_there_on() {
         }
     }
 }
+
+/// Under a heavier load crests touch that did not touch before.
+#[test]
+fn contacts_that_are_born_cost_only_their_own_samples() {
+    let wave = 100.0 * PI;
+    let body = graph(-1.0, 1.0, move |x| {
+        let (sin, cos) = (wave * x).sin_cos();
+        [0.05 * x * x - 0.3 * cos / wave, 0.1 * x + 0.3 * sin]
+    });
+    let contact = on_flat(body);
+    let mut solver = Solver::new();
+    let mut solve = |load: f64| {
+        let solution = solver.solve(&contact, Control::Load(load)).unwrap();
+        (solution.intervals().len(), solution.cost().evaluations)
+    };
+    let [(few, cold), (more, next)] = [0.02, 0.021].map(&mut solve);
+    println!("{few} contacts by {cold} evaluations, {more} by {next} more");
+    assert!(more > few && next < cold / 5, "{few} by {cold}, {more} by {next}");
+}

@@ -69,8 +69,6 @@ const LEAST_TRIAL_ROOM: f64 = 0.005;
 #[derive(Clone)]
 pub(crate) struct Several<T> {
     parts: Vec<OneOfSeveral<T>>,
-    /// Number of parts in use.
-    count: usize,
     weight: Weight<T>,
     /// Parts of V by the contacts far from each.
     far: FarField<T>,
@@ -85,10 +83,10 @@ pub(crate) struct Several<T> {
 
 impl<T: Real> Several<T> {
     pub fn new(tolerance: T) -> Self {
-        let (parts, count, weight) = (Vec::new(), 0, Weight::new());
+        let (parts, weight) = (Vec::new(), Weight::new());
         let ([cost, spent], constant) = ([Cost::default(); 2], T::zero());
         let far = FarField::new(Combine::Sum);
-        Self { parts, count, weight, far, tolerance, constant, cost, spent }
+        Self { parts, weight, far, tolerance, constant, cost, spent }
     }
 
     /// Counts costs from zero, and forgets the samples unless the bodies are the same.
@@ -105,7 +103,7 @@ impl<T: Real> Several<T> {
 
     /// Sets the contacts, between the ends of the bodies, and the outermost limits that are
     /// corners: ready for the conditions on the limits, not yet for pressures. Keeps the samples of
-    /// earlier contacts if their number is the same. Tells whether a trial has saved panels.
+    /// earlier contacts. Tells whether a trial has saved panels.
     pub fn set(
         &mut self,
         gap: &Gap<'_, T>,
@@ -115,15 +113,16 @@ impl<T: Real> Several<T> {
         is_trial: bool,
     ) -> Result<bool, ContactError<T>> {
         self.weight.set(on, corners);
-        if on.len() != self.count {
-            self.parts.iter_mut().for_each(|part| part.clear(true));
-            self.count = on.len();
-        }
-        while self.parts.len() < self.count {
-            self.parts.push(OneOfSeveral::new(self.tolerance));
+        if on.len() != self.parts.len() {
+            let mut known = std::mem::take(&mut self.parts);
+            self.parts.extend(on.iter().map(|on| {
+                let is_of = |part: &OneOfSeveral<T>| on.contains(part.on.centre());
+                let found = known.iter().position(is_of).map(|i| known.swap_remove(i));
+                found.unwrap_or_else(|| OneOfSeveral::new(self.tolerance))
+            }));
         }
         let (half, mut is_tried) = (T::of(0.5), false);
-        for (i, part) in self.parts[..self.count].iter_mut().enumerate() {
+        for (i, part) in self.parts.iter_mut().enumerate() {
             // No contact is sampled beyond the middle of a gap.
             let from = if i == 0 { ends.left } else { half * on[i - 1].right + half * on[i].left };
             let to = on.get(i + 1).map_or(ends.right, |next| half * on[i].right + half * next.left);
@@ -142,7 +141,7 @@ impl<T: Real> Several<T> {
     /// Samples between the nodes of all contacts; tells whether panels have missed a feature.
     pub fn probe(&mut self, gap: &Gap<'_, T>) -> Result<bool, ContactError<T>> {
         let mut is_missed = false;
-        for part in &mut self.parts[..self.count] {
+        for part in &mut self.parts {
             let on = part.on;
             part.panel_set.spent = self.spent + self.cost;
             let probed = part.panel_set.probe(gap, on);
@@ -154,15 +153,11 @@ impl<T: Real> Several<T> {
 
     /// Prepares for pressures.
     pub fn press(&mut self) {
-        self.parts[..self.count].iter_mut().for_each(OneOfSeveral::press);
+        self.parts.iter_mut().for_each(OneOfSeveral::press);
         let mut far = std::mem::replace(&mut self.far, FarField::new(Combine::Sum));
         let contacts = self.contacts();
         far.set(contacts, contacts.iter().copied(), &|k, x| self.parts[k].seen_from(x));
         self.far = far;
-    }
-
-    fn parts(&self) -> &[OneOfSeveral<T>] {
-        &self.parts[..self.count]
     }
 
     /// Returns the part of V by some contacts, at a place off them; near contact `near`, given the
@@ -178,7 +173,7 @@ impl<T: Real> Several<T> {
 
     /// Returns the Cauchy transform of the pressure for κ and F.
     pub fn cauchy_transform(&self, kappa: T, load: T) -> CauchyTransform<T> {
-        let contacts = self.parts().iter().map(OneOfSeveral::in_plane).collect();
+        let contacts = self.parts.iter().map(OneOfSeveral::in_plane).collect();
         let (zeros, corners) = (self.weight.zeros().to_vec(), self.corners());
         let (strengths, far_away) = (Ends::both(T::zero()), T::zero());
         CauchyTransform { contacts, zeros, corners, strengths, far_away, kappa, load }
@@ -191,13 +186,14 @@ impl<T: Real> Several<T> {
 
     /// Returns the numbers of the free limits, from left to right.
     fn free(&self) -> Range<usize> {
-        usize::from(self.corners().left)..2 * self.count - usize::from(self.corners().right)
+        usize::from(self.corners().left)..2 * self.parts.len() - usize::from(self.corners().right)
     }
 
     /// Returns V at an outermost limit, without its infinite part.
     fn at_outer_end(&self, side: Side) -> T {
-        let contact = if side == Side::Left { 0 } else { self.count - 1 };
-        let (part, others) = (&self.parts[contact], (0..self.count).filter(|&i| i != contact));
+        let contact = if side == Side::Left { 0 } else { self.parts.len() - 1 };
+        let (part, others) =
+            (&self.parts[contact], (0..self.parts.len()).filter(|&i| i != contact));
         part.at_end(side) + self.outside(others, part.on[side], None)
     }
 

@@ -38,7 +38,7 @@ impl<T: Real> Several<T> {
             }
         }
         self.balance(load, system);
-        for k in 0..self.count - 1 {
+        for k in 0..self.parts.len() - 1 {
             self.close(k, system);
         }
     }
@@ -52,7 +52,7 @@ impl<T: Real> Several<T> {
     fn at_end(&self, far: &FarField<T>, contact: usize, side: Side) -> T {
         let gap = match side {
             Side::Left => contact.checked_sub(1),
-            Side::Right => Some(contact).filter(|k| k + 1 < self.count),
+            Side::Right => Some(contact).filter(|k| k + 1 < self.parts.len()),
         };
         let Some(k) = gap else { return self.at_outer_end(side) };
         let (part, others) = (&self.parts[contact], far.near(k).filter(|&i| i != contact));
@@ -191,12 +191,12 @@ impl<T: Real> Several<T> {
     }
 
     fn sum(&self, of: impl Fn(&OneOfSeveral<T>) -> T) -> T {
-        self.parts().iter().fold(T::zero(), |sum, part| sum + of(part))
+        self.parts.iter().fold(T::zero(), |sum, part| sum + of(part))
     }
 
     /// Returns the interval from the first limit to the last.
     fn hull(&self) -> Interval<T> {
-        Interval { left: self.parts[0].on.left, right: self.parts[self.count - 1].on.right }
+        Interval { left: self.parts[0].on.left, right: self.parts[self.parts.len() - 1].on.right }
     }
 
     fn has_no_corners(&self) -> bool {
@@ -207,7 +207,7 @@ impl<T: Real> Several<T> {
     fn powers(&self, about: T) -> [T; 2] {
         let (half, two) = (T::of(0.5), T::of(2.0));
         let mut powers = [T::zero(); 2];
-        for OneOfSeveral { on, moments, .. } in self.parts() {
+        for OneOfSeveral { on, moments, .. } in &self.parts {
             let (away, half_width) = (on.centre() - about, on.half_width());
             let arm = half_width * moments.m1;
             let second = moments.m2.unwrap_or(T::zero());

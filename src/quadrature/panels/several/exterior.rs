@@ -11,14 +11,13 @@ impl<T: Real> Several<T> {
     pub fn sampled(panel_sets: Vec<PanelSet<T>>) -> Self {
         let mut several = Self::new(panel_sets[0].tolerance);
         several.parts = panel_sets.into_iter().map(OneOfSeveral::on_panels).collect();
-        several.count = several.parts.len();
         several
     }
 
     /// Sets the load F/κ where the contacts do not determine it: the only one between two corners
     /// carries any load.
     pub fn bear(&mut self, load: T) {
-        let is_given = self.count == 1 && self.corners() == Ends::both(true);
+        let is_given = self.parts.len() == 1 && self.corners() == Ends::both(true);
         self.constant = if is_given { -T::pi() * load } else { T::zero() };
     }
 
@@ -30,11 +29,12 @@ impl<T: Real> Several<T> {
         let sign = if side == Side::Left { -T::one() } else { T::one() };
         let place = |distance: T| on[side] + sign * distance;
         let x = place(distance);
-        let value =
-            |distance| self.outside(0..self.count, place(distance), Some((contact, distance)));
+        let value = |distance| {
+            self.outside(0..self.parts.len(), place(distance), Some((contact, distance)))
+        };
         let in_gap = match side {
             Side::Left => contact.checked_sub(1),
-            Side::Right => Some(contact).filter(|k| k + 1 < self.count),
+            Side::Right => Some(contact).filter(|k| k + 1 < self.parts.len()),
         };
         let Some(k) = in_gap else {
             return -self.weight.beyond(side, x, distance) * (value(distance) + self.constant)

@@ -35,7 +35,7 @@ impl<T: Real> Several<T> {
         let (mut unit, mut step) = (vec![T::zero(); system.residual.len()], Vec::new());
         unit[system.load_row] = T::one();
         system.solve(&unit, &mut step);
-        let mut rates = vec![Ends::both(T::zero()); self.count];
+        let mut rates = vec![Ends::both(T::zero()); self.parts.len()];
         let mut terms = Vec::with_capacity(step.len());
         for (i, rate) in self.free().zip(step) {
             if !rate.is_finite() {

@@ -7,8 +7,8 @@ use crate::{Real, Side};
 impl<T: Real> Several<T> {
     /// Returns the number of the contact in which a place lies.
     fn contact_with(&self, x: T) -> Option<usize> {
-        let i = self.parts().partition_point(|part| part.on.right <= x);
-        self.parts().get(i).filter(|part| part.on.contains(x)).map(|_| i)
+        let i = self.parts.partition_point(|part| part.on.right <= x);
+        self.parts.get(i).filter(|part| part.on.contains(x)).map(|_| i)
     }
 
     /// Computes `P/κ`, zero in the gaps between the contacts.
@@ -44,7 +44,7 @@ impl<T: Real> Several<T> {
         let (part, sixth) = (&self.parts[i], T::of(6.0));
         // An error of the edge integrals is an error of the edge singularities; the errors of other
         // contacts add to it.
-        let others = self.parts().iter().enumerate().filter(|&(k, _)| k != i);
+        let others = self.parts.iter().enumerate().filter(|&(k, _)| k != i);
         let by_others = others.fold(T::zero(), |sum, (_, other)| {
             let away = (other.on.left - x).max(x - other.on.right);
             sum + other.moments.error / away
