@@ -46,6 +46,11 @@ pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option
     Some(edge_integrals::rise(panels, on, share * *size))
 }
 
+/// Tells whether the slope of the gap falls on the panels of the only contact.
+pub(crate) fn falls<T: Real>(integrator: &dyn Integrator<T>) -> bool {
+    integrator.panels().and_then(PanelIntegrator::only).is_some_and(|own| own.0.fall().is_some())
+}
+
 /// Tells whether the panels of one contact cover an interval, and the slope of the gap rises there.
 pub(crate) fn rises_on<T: Real>(
     integrator: &dyn Integrator<T>,

@@ -34,6 +34,7 @@ mod controls;
 mod corners;
 mod declared_convexity;
 mod default_solve;
+mod dents;
 mod display;
 mod edge_pressures;
 mod edges;

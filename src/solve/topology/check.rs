@@ -37,11 +37,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
             return Ok(lifts_off);
         }
         self.resolve(found)?;
-        if self.is_convex() {
-            return Ok(lifts_off);
-        }
         let gap = &self.contact.gap.tilted(found.tilt);
-        if self.touches_once(gap, found)? {
+        let is_proved = self.is_convex() || self.touches_once(gap, found)?;
+        // The panels may have found a feature that the survey has missed.
+        if is_proved && !panels::falls(self.work.integrator) {
             return Ok(lifts_off);
         }
         Ok(self.fault(gap, found)?.or(lifts_off))

@@ -1,4 +1,4 @@
-//! Check of a declared convexity: the slope of the gap rises from node to node.
+//! Check of a declared or proved convexity: the slope of the gap rises from node to node.
 
 use super::PanelSet;
 use crate::gap::Gap;
@@ -13,32 +13,34 @@ const MAX_FALL: f64 = 32.0;
 
 impl<T: Real> PanelSet<T> {
     /// Checks the slopes if the bodies declare a [`Convexity`](crate::Convexity) that makes the gap
-    /// convex: they must not fall from a node to the next, nor where two panels meet.
+    /// convex.
     ///
     /// # Errors
     /// [`InputError::NotConvex`].
     pub(super) fn check_declared(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
-        if !gap.is_convex() || self.coarse {
-            return Ok(());
-        }
+        let fall = if gap.is_convex() && !self.coarse { self.fall() } else { None };
+        fall.map_or(Ok(()), |(between, slopes)| {
+            Err(InputError::NotConvex { between, slopes }.into())
+        })
+    }
+
+    /// Returns the first places between which the slope falls, from a node to the next or where two
+    /// panels meet, and the slopes there.
+    pub fn fall(&self) -> Option<([T; 2], [T; 2])> {
         let share = T::epsilon().sqrt().max(T::of(MAX_FALL) * self.tolerance);
         let least = share * self.size + T::of(MAX_FALL) * T::epsilon();
         let mut before = None;
-        for panel in &self.panels {
+        self.panels.iter().find_map(|panel| {
             let allowed = T::of(MAX_FALL) * panel.error.max(panel.noise) + least;
             let [left, right] = panel.at_ends();
             let at_seam = before.filter(|&(slope, open)| left + open + allowed < slope);
-            let fall = match at_seam {
+            before = Some((right, allowed));
+            match at_seam {
                 Some((slope, _)) => Some(([panel.x[0]; 2], [slope, left])),
                 None if panel.fall > allowed => fall(panel, allowed),
                 None => None,
-            };
-            if let Some((between, slopes)) = fall {
-                return Err(InputError::NotConvex { between, slopes }.into());
             }
-            before = Some((right, allowed));
-        }
-        Ok(())
+        })
     }
 }
 
