@@ -115,9 +115,10 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     let (ends, rises) = (cache.curve_samples.ends(), piece.k[0] < piece.k[1]);
     let batch = TargetBatch { gap, body, piece, ends, rises, targets, room };
     let (known, guides) = (&mut cache.curve_samples, cache.guides.iter().flatten());
-    let mut own = guides.filter(|(piece, _)| *piece == index).map(|(_, guide)| guide);
     // A series has no exact derivatives: dual numbers need points of the curve.
-    if is_estimate && T::COMPONENTS == 1 {
+    let serves = |of: usize| T::COMPONENTS == 1 && of == index;
+    let mut own = guides.filter(|(of, _)| serves(*of)).map(|(_, guide)| guide);
+    if is_estimate {
         if let Some(samples) = own.find_map(|guide| batch.by_series(guide)) {
             known.set(ends, &samples);
             known.are_guessed = true;
