@@ -8,8 +8,8 @@
 //! distance to its neighbours is approached by a few steps of Newton's rule, as is the first target
 //! where only the far ends of a piece are known. If they do not succeed, the user's strategy
 //! searches for the target and is stopped as soon as it is near, by the value zero there. Where the
-//! [survey](super::survey) knows the piece, its series serve for a first estimate: no point is
-//! evaluated for it.
+//! [survey](super::survey) knows the piece, its series serve for a first estimate, without
+//! evaluations, and aim at the first targets.
 
 mod curve_samples;
 mod inverse_hermite;

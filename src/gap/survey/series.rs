@@ -136,7 +136,7 @@ impl<T: Real> Series<T> {
         ((self.k[1] - self.k[0]) / (other.k[1] - other.k[0])).abs()
     }
 
-    /// Returns the point of the series at x; `None` outside the outermost points.
+    /// Returns the point of the series at x; `None` outside its range.
     pub fn sample_near(&self, x: T) -> Option<CurveSample<T>> {
         let [from, to] = self.between;
         if !(self.doubt.is_finite() && x > from && x < to) {
