@@ -36,7 +36,7 @@ use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
 use panel_set::{FINEST, LEAST};
-pub(crate) use panel_set::{MAX_MISSED, PanelSet, Rises};
+pub(crate) use panel_set::{PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System};
 use std::any::Any;
 /// Tells whether the slope of the gap rises all over the contact last prepared, up to a share of
@@ -148,9 +148,7 @@ pub(crate) fn probe<T: Real>(
         return integrator.several.probe(gap);
     }
     let is_missed = integrator.panel_set.probe(gap, on)?;
-    if is_missed {
-        integrator.moments = None;
-    }
+    integrator.moments = integrator.moments.filter(|_| !is_missed);
     Ok(is_missed)
 }
 

@@ -172,10 +172,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             self.look()?;
         }
         let mut found = self.one_from(self.work.workspace.last.first().copied(), looks)?;
-        for _ in 0..panels::MAX_MISSED {
-            if !self.misses(&found)? {
-                break;
-            }
+        while self.misses(&found)? {
             found = self.one_from(Some(found.interval), looks)?;
         }
         Ok(found)

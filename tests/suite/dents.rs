@@ -16,7 +16,13 @@ fn dented(at: f64, width: f64, depth: f64) -> Contact<'static, f64> {
 
 /// Returns the number of contacts; 0 if the scene is refused. No solution has tension or overlap.
 fn contacts(contact: &Contact<'_, f64>, scene: &str) -> usize {
-    let Ok(solution) = contact.solve(Control::Load(0.02)) else { return 0 };
+    let solution = match contact.solve(Control::Load(0.02)) {
+        Ok(s) => s,
+        Err(e) => {
+            println!("{scene}: refused {e}");
+            return 0;
+        }
+    };
     if let Err(ContactError::Solve(fault)) = solution.certify() {
         // No point of either body shows a dent between the probes.
         assert!(matches!(fault, SolveError::FeatureMissed { .. }), "{scene}: {fault}");

@@ -7,7 +7,6 @@ mod probing;
 mod sampling;
 
 pub(crate) use derivative_check::Rises;
-pub(crate) use probing::MAX_MISSED;
 
 use super::panel::Panel;
 use crate::gap::{Cost, Gap, Guides, SampleCache, Sampler};

@@ -142,9 +142,8 @@ impl<T: Real> Several<T> {
     pub fn probe(&mut self, gap: &Gap<'_, T>) -> Result<bool, ContactError<T>> {
         let mut is_missed = false;
         for part in &mut self.parts {
-            let on = part.on;
             part.panel_set.spent = self.spent + self.cost;
-            let probed = part.panel_set.probe(gap, on);
+            let probed = part.panel_set.probe(gap, part.on);
             self.cost += std::mem::take(&mut part.panel_set.cost);
             is_missed |= probed?;
         }

@@ -96,10 +96,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
             };
             self.report(start, outcome);
             let Workspace { newton, before, .. } = &*self.work.workspace;
-            // This revision undoes the one before.
+            // This revision undoes the one before. Unlike the cells, tension is exact.
             let is_undone = is_alike(&newton.on, &earlier);
+            earlier.clear();
+            if start != Start::ActiveSet {
+                earlier.clone_from(before);
+            }
             start = if is_undone { Start::ActiveSet } else { next };
-            earlier.clone_from(before);
         }
         Err(self.not_found(first, fault))
     }
@@ -253,13 +256,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
             right: at_corner.right && on[on.len() - 1].right >= ends.right,
         };
         let mut found = self.converge_once(conditions, corners)?;
-        for _ in 0..panels::MAX_MISSED {
-            match &found {
-                Ok(state) if self.misses(state)? => {
-                    found = self.converge_once(conditions, corners)?;
-                }
-                _ => break,
-            }
+        while let Ok(state) = &found
+            && self.misses(state)?
+        {
+            found = self.converge_once(conditions, corners)?;
         }
         Ok(found)
     }

@@ -48,7 +48,6 @@ impl<T: Real> PanelSet<T> {
 /// by more than allowed, and the slopes there.
 fn fall<T: Real>(panel: &Panel<T>, allowed: T) -> Option<([T; 2], [T; 2])> {
     let nodes: Vec<T> = panel.nodes().collect();
-    let pairs = nodes.windows(2).map(|x| [x[0], x[1]]);
-    let mut falls = pairs.map(|x| (x, x.map(|x| panel.value(x))));
-    falls.find(|(_, slopes)| slopes[0] - slopes[1] > allowed)
+    let mut pairs = nodes.windows(2).map(|x| ([x[0], x[1]], [0, 1].map(|i| panel.value(x[i]))));
+    pairs.find(|(_, slopes)| slopes[0] - slopes[1] > allowed)
 }

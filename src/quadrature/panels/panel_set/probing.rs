@@ -6,7 +6,7 @@
 //! series.
 
 use super::PanelSet;
-use crate::gap::{Cost, Gap};
+use crate::gap::Gap;
 use crate::numerics::chebyshev::{Table, by_size};
 use crate::quadrature::panels::Panel;
 use crate::{ContactError, Interval, Real};
@@ -15,9 +15,6 @@ use crate::{ContactError, Interval, Real};
 /// seen. Three widths from the top of a bump that moves the peak by 1 %, its slope is 1e-12 of the
 /// slope of the gap, and panels are more exact.
 const SPACING: f64 = 6.0;
-
-/// Most rounds in which panels that miss a feature are sampled anew.
-pub(crate) const MAX_MISSED: usize = 8;
 
 /// Allowed error of a panel at a probed place, in units of the panel's uncertainty.
 const MAX_MISMATCH: f64 = 32.0;
@@ -52,9 +49,8 @@ impl<T: Real> PanelSet<T> {
             }
         }
         // Probes are checks, and are counted with the heights.
-        let Cost { samples, evaluations, .. } = before;
-        self.cost.heights += self.cost.evaluations - evaluations;
-        (self.cost.samples, self.cost.evaluations) = (samples, evaluations);
+        self.cost.heights += self.cost.evaluations - before.evaluations;
+        (self.cost.samples, self.cost.evaluations) = (before.samples, before.evaluations);
         // From the right, so that the numbers of panels on the left stay.
         for &(i, x) in missed.iter().rev() {
             self.cut(gap, i, x, apart)?;
@@ -106,7 +102,8 @@ impl<T: Real> PanelSet<T> {
         Ok(None)
     }
 
-    /// Probes each interval between nodes, at `part` of `parts` of the way.
+    /// Probes each interval between nodes, at `part` of `parts` of the way, for the place where the
+    /// panel is furthest off.
     fn missed_at<const N: usize>(
         &mut self,
         gap: &Gap<'_, T>,
@@ -115,8 +112,7 @@ impl<T: Real> PanelSet<T> {
         apart: T,
         [part, parts]: [usize; 2],
     ) -> Result<Option<T>, ContactError<T>> {
-        let share = part as f64 / parts as f64;
-        let (reach, table) = (panel.half(), Table::of(N));
+        let (share, reach, table) = (part as f64 / parts as f64, panel.half(), Table::of(N));
         let offsets: [T; N] = std::array::from_fn(|i| {
             // The end is only half as far from the last node.
             let on = if i + 1 < N { share } else { 0.5 * share };
@@ -128,15 +124,14 @@ impl<T: Real> PanelSet<T> {
         let most = T::of(OFF_PLACE) * apart;
         let room = std::array::from_fn(|i| (T::of(OFF_NODE * table.spacing[i]) * reach).min(most));
         let [lower, upper] = self.slopes_at(gap, panel.x, &offsets, &places, &[room; 2])?;
-        let size = |i: usize| lower[i].abs() + upper[i].abs();
-        let steepest = (0..N).fold(T::zero(), |most, i| most.max(size(i)));
+        let steepest = (0..N).fold(T::zero(), |most, i| most.max(lower[i].abs() + upper[i].abs()));
         let least = (self.tolerance * self.size).max(T::epsilon() * steepest);
         // Both the place and the nodes are rounded.
         let allowed = T::of(MAX_MISMATCH) * panel.error.max(least) + T::of(2.0) * panel.noise;
-        let is_missed = |&i: &usize| {
-            let missed = (panel.value(places[i]) - (upper[i] - lower[i])).abs();
-            on.contains(places[i]) && missed > allowed
-        };
-        Ok((0..N).find(is_missed).map(|i| places[i]))
+        // A sample inside a feature disturbs the others of its batch, but less.
+        let off = |i: usize| (panel.value(places[i]) - (upper[i] - lower[i])).abs();
+        let missed = (0..N).filter(|&i| on.contains(places[i]) && off(i) > allowed);
+        let worst = missed.reduce(|one, other| if off(other) > off(one) { other } else { one });
+        Ok(worst.map(|i| places[i]))
     }
 }

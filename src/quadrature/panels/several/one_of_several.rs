@@ -4,7 +4,7 @@ use super::super::edge_integrals::{self, EdgeSums};
 use super::super::hilbert_transform::{Edges, HilbertTransform, LANES};
 use super::super::near_far_sum::{NearFarSum, Seen};
 use super::super::panel::{Panel, Series, spans, within};
-use super::super::panel_set::{MAX_MISSED, PanelSet};
+use super::super::panel_set::PanelSet;
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES, Table, by_size, power_series, size_for};
 use crate::quadrature::Moments;
@@ -135,15 +135,13 @@ impl<T: Real> OneOfSeveral<T> {
     /// Returns the height of the gap at the first of two places. If heights contradict the slopes,
     /// probes for a narrow feature.
     fn height_at(&mut self, gap: &Gap<'_, T>, places: [T; 2]) -> Result<T, ContactError<T>> {
-        let mut trials = 0;
         loop {
             let mut cost = Cost::default();
             let heights = self.panel_set.heights(gap, places, &mut cost);
             self.panel_set.cost += cost;
             let may_hide =
                 matches!(heights, Err(ContactError::Input(InputError::InconsistentHeights { .. })));
-            trials += 1;
-            if !may_hide || trials > MAX_MISSED || !self.panel_set.probe(gap, self.on.plain())? {
+            if !may_hide || !self.panel_set.probe(gap, self.on.plain())? {
                 return heights.map(|[height, _]| height);
             }
         }
