@@ -37,7 +37,7 @@ pub(crate) use panel::Panel;
 use panel::Series;
 use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{PanelSet, Rises};
-pub(crate) use several::{LoadResponse, Several, System};
+pub(crate) use several::{LoadResponse, Several, System, contacts};
 use std::any::Any;
 /// Tells whether the slope of the gap rises all over the contact last prepared, up to a share of
 /// the largest slope; `None` for other integrators, and for several contacts.
@@ -46,9 +46,13 @@ pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option
     Some(edge_integrals::rise(panels, on, share * *size))
 }
 
-/// Tells whether the slope of the gap falls on the panels of the only contact.
-pub(crate) fn falls<T: Real>(integrator: &dyn Integrator<T>) -> bool {
-    integrator.panels().and_then(PanelIntegrator::only).is_some_and(|own| own.0.fall().is_some())
+/// Returns the span within which the slope of the gap falls on the panels of the only contact, as
+/// the gap between two intervals of its length.
+pub(crate) fn around_falls<T: Real>(integrator: &dyn Integrator<T>) -> Option<[Interval<T>; 2]> {
+    let falls = integrator.panels()?.only()?.0.falls().map(|(between, _)| between);
+    let [from, to] = falls.reduce(|one, other| [one[0], other[1]])?;
+    let left = Interval { left: from - (to - from), right: from };
+    Some([left, Interval { left: to, right: to + (to - from) }])
 }
 
 /// Tells whether the panels of one contact cover an interval, and the slope of the gap rises there.

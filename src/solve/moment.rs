@@ -7,7 +7,7 @@
 use super::edges::{Conditions, Given};
 use super::topology::{self, Borne};
 use super::{Contact, Work};
-use crate::quadrature::panels::{self, Several};
+use crate::quadrature::panels;
 use crate::solution::ContactState;
 use crate::{ContactError, InputError, Interval, Real, SolveError};
 
@@ -86,8 +86,7 @@ pub(super) fn find<T: Real>(
         }
         found => found?,
     };
-    let several = panels::several(work.integrator).map(Several::contacts);
-    let contacts = several.unwrap_or(std::slice::from_ref(&found.interval));
+    let contacts = panels::contacts(work.integrator, &found.interval);
     let narrowest = contacts.iter().map(Interval::half_width).reduce(|one, other| one.min(other));
     let doubt = rounding / narrowest.unwrap_or(T::one());
     found.error = found.error.map(|error| error + doubt);

@@ -10,7 +10,7 @@ mod step;
 
 use super::exterior_field::{ExteriorField, ExteriorFields, POINTS};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::panels::{self, Several};
+use crate::quadrature::panels;
 use crate::quadrature::{Integrator, LoadCase};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -75,8 +75,7 @@ fn by_size<T: Real>(one: T, other: T) -> Ordering {
 
 impl<T: Real> SignoriniCheck<'_, T> {
     fn contacts(&self) -> &[Interval<T>] {
-        let several = panels::several(self.integrator).map(Several::contacts);
-        several.unwrap_or(std::slice::from_ref(&self.found.interval))
+        panels::contacts(self.integrator, &self.found.interval)
     }
 
     /// Tells whether a place is in a contact under a lighter load.

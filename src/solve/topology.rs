@@ -151,7 +151,8 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         // If the bodies turn, one contact may be hard to find, too; likewise among waves not yet
         // seen.
         let is_lost = matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }));
-        Ok(!self.turns() && (self.is_convex() || !is_lost && self.look()?.bulges()))
+        let is_convex = self.is_convex() && !self.corrects_survey()?;
+        Ok(!self.turns() && (is_convex || !is_lost && self.look()?.bulges()))
     }
 
     /// Returns the start of a search for one contact: the last contact, the user's start, or the

@@ -1,9 +1,8 @@
 //! Check of a solution: narrow features, corners, tension inside and overlap outside.
 
 use super::super::signorini_check::{SignoriniCheck, Under};
-use super::{Search, Workspace};
+use super::{Search, Work, Workspace, asked_by};
 use crate::gap::Gap;
-use crate::quadrature::panels::Several;
 use crate::quadrature::{Panels, Quadrature, panels};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, SolveError};
@@ -39,8 +38,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         self.resolve(found)?;
         let gap = &self.contact.gap.tilted(found.tilt);
         let is_proved = self.is_convex() || self.touches_once(gap, found)?;
-        // The panels may have found a feature that the survey has missed.
-        if is_proved && !panels::falls(self.work.integrator) {
+        if is_proved && !self.corrects_survey()? {
             return Ok(lifts_off);
         }
         Ok(self.fault(gap, found)?.or(lifts_off))
@@ -65,16 +63,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         let integrator = own.as_deref().unwrap_or(&*self.work.integrator);
         let covers = self.covers(found);
-        if !covers {
-            self.work.workspace.take(gap, self.work.cost)?;
-        }
         let (interval, load) = (found.interval, found.load);
         let Workspace { look, fields, tension_spans, passed, overlaps, .. } =
             &mut *self.work.workspace;
         let under = [load / kappa, found.tilt];
         let on = Under { under, samples: integrator.cost().samples };
-        let contacts = panels::several(integrator).map(Several::contacts);
-        let contacts = contacts.unwrap_or(std::slice::from_ref(&interval));
+        let contacts = panels::contacts(integrator, &interval);
         // A gap open under a heavier load is open under a lighter one; a place pressed under a
         // lighter load is pressed under a heavier one.
         let (widest, pressed) = (passed.under_more(under), passed.under_less(on, contacts));
@@ -113,10 +107,22 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn resolve(&mut self, found: &ContactState<T>) -> Result<(), ContactError<T>> {
         let gap = &self.contact.gap.tilted(found.tilt);
         self.work.workspace.take(gap, self.work.cost)?;
-        let contacts = panels::several(self.work.integrator).map(|several| several.contacts());
-        let contacts = contacts.unwrap_or(std::slice::from_ref(&found.interval));
+        let contacts = panels::contacts(self.work.integrator, &found.interval);
         let load = found.load.abs() / self.contact.kappa;
         self.work.workspace.look.resolve(gap, load, contacts, self.work.cost)
+    }
+
+    /// Tells whether the panels have found a feature that a convex survey has missed, and shows it
+    /// to the survey.
+    pub(super) fn corrects_survey(&mut self) -> Result<bool, ContactError<T>> {
+        let Some(beside) = panels::around_falls(self.work.integrator) else { return Ok(false) };
+        let Work { workspace, cost, .. } = &mut *self.work;
+        let gap = &self.contact.gap;
+        let load = workspace.about(gap, asked_by(&self.conditions), cost)?;
+        workspace.look.look_again();
+        workspace.look.resolve(gap, load, &beside, cost)?;
+        workspace.look.look_again();
+        Ok(true)
     }
 
     /// Tells whether one contact covers the bodies from end to end.
@@ -136,7 +142,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if !is_one || found.adhesive != Ends::both(false) || self.covers(found) {
             return Ok(false);
         }
-        self.work.workspace.take(gap, self.work.cost)?;
         let load = found.load / self.contact.kappa;
         self.work.workspace.look.prove(gap, found.interval, load, self.work.cost)
     }

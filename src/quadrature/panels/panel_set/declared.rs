@@ -18,19 +18,19 @@ impl<T: Real> PanelSet<T> {
     /// # Errors
     /// [`InputError::NotConvex`].
     pub(super) fn check_declared(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
-        let fall = if gap.is_convex() && !self.coarse { self.fall() } else { None };
+        let fall = if gap.is_convex() && !self.coarse { self.falls().next() } else { None };
         fall.map_or(Ok(()), |(between, slopes)| {
             Err(InputError::NotConvex { between, slopes }.into())
         })
     }
 
-    /// Returns the first places between which the slope falls, from a node to the next or where two
-    /// panels meet, and the slopes there.
-    pub fn fall(&self) -> Option<([T; 2], [T; 2])> {
+    /// Lists places between which the slope falls, from a node to the next or where two panels meet,
+    /// and the slopes there: one pair for each panel.
+    pub fn falls(&self) -> impl Iterator<Item = ([T; 2], [T; 2])> {
         let share = T::epsilon().sqrt().max(T::of(MAX_FALL) * self.tolerance);
         let least = share * self.size + T::of(MAX_FALL) * T::epsilon();
         let mut before = None;
-        self.panels.iter().find_map(|panel| {
+        self.panels.iter().filter_map(move |panel| {
             let allowed = T::of(MAX_FALL) * panel.error.max(panel.noise) + least;
             let [left, right] = panel.at_ends();
             let at_seam = before.filter(|&(slope, open)| left + open + allowed < slope);
