@@ -46,13 +46,10 @@ pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option
     Some(edge_integrals::rise(panels, on, share * *size))
 }
 
-/// Returns the span within which the slope of the gap falls on the panels of the only contact, as
-/// the gap between two intervals of its length.
-pub(crate) fn around_falls<T: Real>(integrator: &dyn Integrator<T>) -> Option<[Interval<T>; 2]> {
+/// Returns the span within which the slope of the gap falls on the panels of the only contact.
+pub(crate) fn falls<T: Real>(integrator: &dyn Integrator<T>) -> Option<[T; 2]> {
     let falls = integrator.panels()?.only()?.0.falls().map(|(between, _)| between);
-    let [from, to] = falls.reduce(|one, other| [one[0], other[1]])?;
-    let left = Interval { left: from - (to - from), right: from };
-    Some([left, Interval { left: to, right: to + (to - from) }])
+    falls.reduce(|one, other| [one[0], other[1]])
 }
 
 /// Tells whether the panels of one contact cover an interval, and the slope of the gap rises there.

@@ -115,12 +115,16 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Tells whether the panels have found a feature that a convex survey has missed, and shows it
     /// to the survey.
     pub(super) fn corrects_survey(&mut self) -> Result<bool, ContactError<T>> {
-        let Some(beside) = panels::around_falls(self.work.integrator) else { return Ok(false) };
-        let Work { workspace, cost, .. } = &mut *self.work;
         let gap = &self.contact.gap;
+        let Work { integrator, workspace, cost } = &mut *self.work;
+        let Some([from, to]) = panels::falls(*integrator) else { return Ok(false) };
+        // As a gap between narrow contacts, it is looked at closely.
+        let ([first, last], [left, right]) = (gap.range(), [from - (to - from), to + (to - from)]);
+        let pairs = [[first.min(left), left], [left, from], [to, right], [right, last.max(right)]];
+        let around = pairs.map(|[left, right]| Interval { left, right });
         let load = workspace.about(gap, asked_by(&self.conditions), cost)?;
         workspace.look.look_again();
-        workspace.look.resolve(gap, load, &beside, cost)?;
+        workspace.look.resolve(gap, load, &around, cost)?;
         workspace.look.look_again();
         Ok(true)
     }
