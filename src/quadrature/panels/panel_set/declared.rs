@@ -29,10 +29,10 @@ impl<T: Real> PanelSet<T> {
     pub fn falls(&self) -> impl Iterator<Item = ([T; 2], [T; 2])> {
         let share = T::epsilon().sqrt().max(T::of(MAX_FALL) * self.tolerance);
         let least = share * self.size + T::of(MAX_FALL) * T::epsilon();
-        let mut before = None;
+        let (is_only, mut before) = (self.panels.len() == 1, None);
         self.panels.iter().filter_map(move |panel| {
             let allowed = T::of(MAX_FALL) * panel.error.max(panel.noise) + least;
-            let [left, right] = panel.at_ends();
+            let [left, right] = if is_only { [T::zero(); 2] } else { panel.at_ends() };
             let at_seam = before.filter(|&(slope, open)| left + open + allowed < slope);
             before = Some((right, allowed));
             match at_seam {
