@@ -24,8 +24,8 @@ impl<T: Real> PanelSet<T> {
         })
     }
 
-    /// Lists places between which the slope falls, from a node to the next or where two panels meet,
-    /// and the slopes there: one pair for each panel.
+    /// Lists places between which the slope falls, from a node to the next or where two panels
+    /// meet, and the slopes there: one pair for each panel.
     pub fn falls(&self) -> impl Iterator<Item = ([T; 2], [T; 2])> {
         let share = T::epsilon().sqrt().max(T::of(MAX_FALL) * self.tolerance);
         let least = share * self.size + T::of(MAX_FALL) * T::epsilon();
