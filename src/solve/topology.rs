@@ -49,6 +49,8 @@ struct Search<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
     conditions: Conditions<T>,
     work: &'s mut Work<'w, T>,
+    /// Number of samples of the gap before the search.
+    samples: usize,
     /// Number of cells of the next active set.
     cells: usize,
     /// Places where gaps have closed.
@@ -68,8 +70,8 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         work: &'s mut Work<'w, T>,
     ) -> Self {
         let (cells, closed, has_run_out) = (FIRST_CELLS, Vec::new(), false);
-        let (runs_out, end) = (None, None);
-        Self { contact, conditions, work, cells, closed, runs_out, has_run_out, end }
+        let (runs_out, end, samples) = (None, None, work.integrator.cost().samples);
+        Self { contact, conditions, work, samples, cells, closed, runs_out, has_run_out, end }
     }
 
     fn find(&mut self) -> Result<ContactState<T>, ContactError<T>> {

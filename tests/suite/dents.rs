@@ -99,3 +99,37 @@ fn a_dent_inside_leaves_a_bump_outside_to_be_found() {
         assert_eq!(solution.intervals().len(), 3, "{bump:?}");
     }
 }
+
+/// The panels of each set of contacts are probed, also after another set has been checked.
+#[test]
+fn a_dent_is_found_in_each_set_of_contacts() {
+    let bump = [0.21067437532481167, 0.003223475910553986, -0.0006658811572233661];
+    let dent = [0.04368880512183311, 0.012046298271562533, -0.0007784899279854057];
+    let solution = dented(0.0, vec![bump, dent]).resolution(0.0029).solve(Control::Load(0.02));
+    let solution = solution.unwrap();
+    solution.certify().unwrap();
+    // Found with breakpoints at the ends and the middles of both.
+    let known = [-0.199914921, 0.198907445, 0.210062135, 0.210914352];
+    let limits = solution.intervals().iter().flat_map(|on| [on.left, on.right]);
+    assert!(limits.zip(known).all(|(limit, known)| (limit - known).abs() < 1e-9));
+    assert_eq!(solution.intervals().len(), 2);
+}
+
+/// The first panels of the survey are as uncertain as the bump is high, and its points are kept for
+/// the next ones.
+#[test]
+fn a_bump_beside_the_contact_is_seen_by_finer_panels() {
+    for [at, width, height] in [
+        [0.21160371965887267, 0.003425640667115573, 0.002056749524748172],
+        [-0.2129862179683356, 0.0038130656446340333, 0.0026398721125417794],
+    ] {
+        let body = graph(-1.0, 1.0, move |x| {
+            let s = (x - at) / width;
+            let bell = height * (-0.5 * s * s).exp();
+            [0.5 * x * x - bell, x + bell * s / width]
+        });
+        let solution = on_flat(body).resolution(0.008).solve(Control::Load(0.02)).unwrap();
+        assert!(solution.intervals().iter().any(|on| on.contains(at)), "{at}");
+        solution.certify().unwrap();
+    }
+}

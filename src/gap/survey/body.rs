@@ -265,10 +265,8 @@ impl<T: Real> Body<T> {
                 let panel = &mut self.panels[i];
                 let mut series = Series::new(panel.k, points);
                 let missed = missed_by(&series, panel, &self.missed);
-                let is_void = missed.is_some();
-                if is_void {
-                    series.doubt = T::one() / T::zero();
-                }
+                let is_void = !missed.is_finite();
+                series.doubt = series.doubt.max(missed);
                 let is_vain = panel.series.is_some_and(|number| {
                     // Noise does not shrink with the length, nor do waves too fine for the points.
                     let share = series.share_of(&self.series[number]);

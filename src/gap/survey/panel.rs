@@ -21,7 +21,7 @@ pub(super) struct Missed<T> {
     pub piece: usize,
     pub k: T,
     pub point: CurvePoint<T>,
-    /// Distance by which it was missed, a length.
+    /// Distance by which it was missed, a length; infinite if within the uncertainty.
     pub by: T,
     /// Distance of the points with which it was found, along x.
     pub apart: T,
@@ -80,18 +80,18 @@ pub(super) fn row<T: Real>(end: CurvePoint<T>) -> BodyPoint<T> {
     BodyPoint { x: end.x, y: end.y, slope: end.dy / end.dx, doubt: T::zero() }
 }
 
-/// Returns a known point of a panel that its series misses.
-pub(super) fn missed_by<'m, T: Real>(
-    series: &Series<T>,
-    panel: &Panel<T>,
-    known: &'m [Missed<T>],
-) -> Option<&'m Missed<T>> {
+/// Returns the largest distance of a known point of a panel from its series; infinite if the series
+/// misses a feature.
+pub(super) fn missed_by<T: Real>(series: &Series<T>, panel: &Panel<T>, known: &[Missed<T>]) -> T {
     let [left, right] = panel.x();
-    known.iter().filter(|missed| missed.piece == panel.piece).find(|missed| {
+    let own = known.iter().filter(|missed| missed.piece == panel.piece);
+    own.fold(T::zero(), |most, missed| {
         let t = series.t(missed.k);
-        let error = series.doubt.max(series.miss(t, &missed.point));
-        let is_met = error <= T::of(MAX_REMAINING) * missed.by;
+        let off = series.miss(t, &missed.point);
+        let is_met = series.doubt.max(off) <= T::of(MAX_REMAINING) * missed.by;
         // A shorter panel has points all over the feature.
-        t.abs() <= T::one() && right - left > T::of(0.5) * missed.apart && !is_met
+        let counts = t.abs() <= T::one() && right - left > T::of(0.5) * missed.apart;
+        let by = if is_met { off } else { T::one() / T::zero() };
+        if counts { most.max(by) } else { most }
     })
 }

@@ -10,7 +10,7 @@ use super::panel::Missed;
 use super::{Cost, Node, Survey, hull_in};
 use crate::gap::{Gap, Surface};
 use crate::real::same;
-use crate::{Body as Which, ContactError, Interval, Real};
+use crate::{ContactError, Interval, Real};
 
 /// Default distance of points, in widths of the narrowest feature to be seen.
 const PROBE_SPACING: f64 = 4.5;
@@ -111,8 +111,7 @@ impl<T: Real> Survey<T> {
         }
         let mut stretches = std::mem::take(&mut self.stretches);
         let found = self.resolve_stretches(gap, load, contacts, &mut stretches, cost);
-        self.stretches = stretches;
-        self.resolved = Some([T::of(LOAD_AHEAD) * load, gap.tilt()]);
+        (self.stretches, self.resolved) = (stretches, Some([T::of(LOAD_AHEAD) * load, gap.tilt()]));
         found
     }
 
@@ -136,9 +135,8 @@ impl<T: Real> Survey<T> {
             if self.refine_stretches(gap, stretches, load, cost)? {
                 continue;
             }
-            for which in [Which::Lower, Which::Upper] {
-                let surface = &gap.bodies[which as usize];
-                self.bodies[which as usize].probe(gap, surface, stretches, &mut cost.heights);
+            for (body, surface) in self.bodies.iter_mut().zip(&gap.bodies) {
+                body.probe(gap, surface, stretches, T::of(MAX_AT_FOOT) * load, &mut cost.heights);
             }
             for stretch in stretches.iter().filter(|stretch| !stretch.is_missed) {
                 self.seen.retain(|seen| !(seen.is_seen_by(stretch) && stretch.apart <= seen.apart));
@@ -315,12 +313,14 @@ fn within<T: Real>(gap: &Gap<'_, T>, pair: &[Node<T>], x: [T; 2], level: T) -> O
 
 impl<T: Real> Body<T> {
     /// Evaluates points on some stretches, those of a piece in one batch, and voids panels that
-    /// miss them.
+    /// miss them. A point further off than `most`, but within the uncertainty of its panel, is
+    /// kept: the next panels there may seem more exact, and miss it.
     fn probe(
         &mut self,
         gap: &Gap<'_, T>,
         surface: &Surface<'_, T>,
         stretches: &mut [Stretch<T>],
+        most: T,
         heights: &mut usize,
     ) {
         let mut probes = std::mem::take(&mut self.scratch.probes);
@@ -346,11 +346,13 @@ impl<T: Real> Body<T> {
             for (&Probe { stretch, panel, t, k }, &point) in batch.iter().zip(&*points) {
                 let (stretch, panel) = (&mut stretches[stretch], &mut self.panels[panel]);
                 let Some(number) = panel.series else { continue };
-                let series = &self.series[number];
-                let by = series.miss(t, &point);
-                let is_met = by <= T::of(MAX_MISMATCH) * series.doubt;
-                if !is_met {
+                let (by, doubt) = (self.series[number].miss(t, &point), self.series[number].doubt);
+                let is_met = by <= T::of(MAX_MISMATCH) * doubt;
+                if !is_met || by > most {
+                    let by = if is_met { T::one() / T::zero() } else { by };
                     self.missed.push(Missed { piece, k, point, by, apart: stretch.apart });
+                }
+                if !is_met {
                     (panel.doubt, panel.since, panel.is_void) =
                         (T::one() / T::zero(), T::zero(), true);
                     stretch.is_missed = true;

@@ -17,11 +17,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let Interval { left, right } = found.interval;
         contact.gap.check_resolution(left.abs().max(right.abs()))?;
         let (gap, load) = (&contact.gap.tilted(found.tilt), found.load.abs() / contact.kappa);
-        let survey = self.work.workspace.survey_of(gap);
-        if survey.is_some_and(|survey| survey.is_resolved(gap, load)) {
-            return Ok(false);
-        }
-        panels::probe(self.work.integrator, gap, found.interval)
+        // Under a lighter load the samples at hand need no more probes.
+        let is_known = self.samples == self.work.integrator.cost().samples
+            && self.work.workspace.survey_of(gap).is_some_and(|look| look.is_resolved(gap, load));
+        Ok(!is_known && panels::probe(self.work.integrator, gap, found.interval)?)
     }
 
     /// Returns the fault of a solution, if it has any.
