@@ -266,7 +266,10 @@ impl<T: Real> Body<T> {
                 let mut series = Series::new(panel.k, points);
                 let missed = missed_by(&series, panel, &self.missed);
                 let is_void = !missed.is_finite();
-                series.doubt = series.doubt.max(missed);
+                // An uncertainty that is no number stays so.
+                if missed > series.doubt {
+                    series.doubt = missed;
+                }
                 let is_vain = panel.series.is_some_and(|number| {
                     // Noise does not shrink with the length, nor do waves too fine for the points.
                     let share = series.share_of(&self.series[number]);
