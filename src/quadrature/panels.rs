@@ -34,7 +34,7 @@ pub(crate) use edge_integrals::rise as rises_over;
 pub(crate) use half_angle::{Arc, HalfAngle};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
-use panel::Series;
+use panel::{MANY, SMOOTH, Series};
 use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System, contacts};
@@ -72,16 +72,23 @@ pub(crate) fn rise<T: Real>(integrator: &dyn Integrator<T>, from: T, to: T) -> O
     Some(panel_set.rise(from, to) - panel_set.tilt * (to - from))
 }
 
-/// Shows the nodes in one contact; none without panels.
+/// Lists the nodes in one contact, of many panels those where the slope differs by more than allowed
+/// from one smooth series over the contact; none without panels.
 pub(crate) fn nodes<T: Real>(
     integrator: &dyn Integrator<T>,
     contact: usize,
-    show: &mut dyn FnMut(T) -> Result<(), ContactError<T>>,
-) -> Result<(), ContactError<T>> {
-    let Some(integrator) = integrator.panels() else { return Ok(()) };
+    allowed: impl Fn(T) -> T,
+) -> Vec<T> {
+    let Some(integrator) = integrator.panels() else { return Vec::new() };
     let (PanelSet { panels, .. }, on) = integrator.contact(contact);
-    let nodes = panel::within(panels, on).iter().flat_map(Panel::nodes);
-    nodes.filter(|&x| on.contains(x)).try_for_each(show)
+    let panels = panel::within(panels, on);
+    let inside = |x: &T| on.contains(*x);
+    if panels.len() < MANY {
+        return panels.iter().flat_map(Panel::nodes).filter(inside).collect();
+    }
+    let whole = panel::across::<SMOOTH, T>(panels, on);
+    let panels = panel::unlike(panels, on, &whole, |missed, x| missed.abs() <= allowed(x));
+    panels.flat_map(Panel::nodes).filter(inside).collect()
 }
 
 /// Lists the parts of one contact that lie on one panel each, with the panel's number of nodes;
@@ -268,7 +275,7 @@ impl<T: Real> PanelIntegrator<T> {
     fn remember(&mut self, on: Interval<T>) -> Moments<T> {
         self.panel_set.own_up();
         let from = self.moments.map(|(from, _)| from);
-        let m = edge_integrals::moments(&self.panel_set.panels, on, false, &mut self.over, from);
+        let m = edge_integrals::moments(&self.panel_set.panels, on, &mut self.over, from);
         (self.moments, self.is_prepared) = (Some((on, m)), false);
         m
     }
@@ -361,7 +368,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         }
         if self.decay.is_some() {
             let panels = &self.panel_set.panels;
-            return Ok(edge_integrals::moments(panels, on, true, &mut self.over, None));
+            return Ok(edge_integrals::moments(panels, on, &mut self.over, None));
         }
         if !self.panel_set.covers(on) {
             self.moments = None;

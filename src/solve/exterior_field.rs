@@ -114,8 +114,11 @@ impl<T: Real> ExteriorField<T> {
     fn doubt_in(&self, room: Interval<T>) -> T {
         let [left, right] = [room.left, room.right].map(|x| self.joukowski(x)[0].abs());
         let (near, far) = (left.max(right), left.min(right));
-        let left_out = near.powf(T::count(self.coefficients().len()));
-        self.doubt * (near / far).ln().min(T::one()).max(left_out)
+        let n = T::count(self.coefficients().len());
+        // From afar, 32 coefficients leave less than rounding.
+        let left_out = if near < T::of(0.25) { T::zero() } else { near.powf(n) };
+        // A logarithm is no more than this.
+        self.doubt * (near / far - T::one()).min(T::one()).max(left_out)
     }
 
     /// Returns `∫ P/(x - s) ds` at a place outside the contact.

@@ -36,6 +36,10 @@ const LEAST_DISTANCE: f64 = 8.0;
 /// evaluated: enough to halve the distance down to rounding.
 const HALVES: usize = 52;
 
+/// Slopes that leave the pressure as it is, as a share of those of a wave whose pressure would be
+/// the least one found: κ/π times its slope.
+const FAINT: f64 = 0.02;
+
 /// Largest number of steps to a minimum of the pressure between the places evaluated.
 const MAX_STEPS: usize = 4;
 
@@ -169,27 +173,19 @@ impl<T: Real> SignoriniCheck<'_, T> {
             seen.clear();
             let both = ExteriorField::places(on).into_iter().zip(&field.pressures);
             seen.extend(both.map(|(x, &pressure)| [x, pressure]));
+            let by_weight = |least: T, &[x, p]: &[T; 2]| least.min(p / on.chebyshev_weight(x));
+            let least = seen.iter().fold(T::one() / T::zero(), by_weight).max(T::zero());
+            let faint = T::of(FAINT) * T::pi() * least / self.kappa;
+            let faint = |x: T| faint * on.chebyshev_weight(x);
             // Features that the panels resolve are not narrower than the spacing of their nodes.
-            let (mut places, mut count) = ([T::zero(); POINTS], 0);
-            let mut look = |places: &[T]| {
+            let mut nodes = panels::nodes(self.integrator, i, faint);
+            nodes.retain(|&x| !self.is_pressed(x));
+            for places in nodes.chunks(POINTS) {
                 let mut pressures = [T::zero(); POINTS];
-                let out = &mut pressures[..places.len()];
-                self.pressures(places, out)?;
-                seen.extend(places.iter().zip(out).map(|(&x, &mut pressure)| [x, pressure]));
-                Ok::<_, ContactError<T>>(())
-            };
-            panels::nodes(self.integrator, i, &mut |x| {
-                if self.is_pressed(x) {
-                    return Ok(());
-                }
-                (places[count], count) = (x, count + 1);
-                if count == POINTS {
-                    count = 0;
-                    look(&places)?;
-                }
-                Ok(())
-            })?;
-            look(&places[..count])?;
+                let pressures = &mut pressures[..places.len()];
+                self.pressures(places, pressures)?;
+                seen.extend(places.iter().zip(pressures).map(|(&x, &mut pressure)| [x, pressure]));
+            }
             seen.sort_by(|one, other| by_size(one[0], other[0]));
             seen.iter().for_each(|&[x, pressure]| meet(x, pressure, allowed));
             // Between these places, at the vertex of the parabola through each minimum and its

@@ -70,13 +70,12 @@ impl<T: Real> EdgeSums<T> {
 /// Largest number of coefficients that are expanded anew as fast as they are moved.
 const FEW: usize = 8;
 
-/// Returns the edge integrals over a contact that the panels cover, coarsely or in full. If one
+/// Returns the edge integrals over a contact that the panels cover. If one
 /// panel holds the whole contact, `over` becomes its [series](Panel::over). If `from` is given, it
 /// is the series of the same panel over that contact, often one nearby.
 pub(super) fn moments<T: Real>(
     panels: &[Panel<T>],
     on: Interval<T>,
-    coarse: bool,
     over: &mut Option<Series<T>>,
     from: Option<Interval<T>>,
 ) -> Moments<T> {
@@ -97,7 +96,7 @@ pub(super) fn moments<T: Real>(
         *over = None;
         if !by_cosines(&mut sums, within, on) {
             sums = EdgeSums::new();
-            by_gauss(&mut sums, within, on, coarse);
+            by_gauss(&mut sums, within, on);
         }
     }
     sums.moments(on)
@@ -182,7 +181,7 @@ fn span_of<const N: usize, T: Real>(
 }
 
 /// Integrates over several panels, some of them too short for their series to be continued.
-fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T>, coarse: bool) {
+fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T>) {
     let width = on.right - on.left;
     let mut left = HalfAngle::of(on, on.left);
     let mut before: Option<&Panel<T>> = None;
@@ -192,7 +191,7 @@ fn by_gauss<T: Real>(sums: &mut EdgeSums<T>, panels: &[Panel<T>], on: Interval<T
             jump(sums, [before.at_ends()[1], panel.at_ends()[0]], error, left, on);
         }
         let right = HalfAngle::of(on, to);
-        span(sums, panel, from, Arc::new(to - from, left, right, width), coarse);
+        span(sums, panel, from, Arc::new(to - from, left, right, width));
         left = right;
         before = Some(panel);
     }
@@ -228,12 +227,8 @@ pub(super) fn cosines<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> (Series<
 }
 
 /// Adds the integrals over one of several spans.
-fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: Arc<T>, coarse: bool) {
-    let rule = if coarse {
-        GaussLegendre::coarsest()
-    } else {
-        GaussLegendre::suited(panel.length, arc.tangent)
-    };
+fn span<T: Real>(sums: &mut EdgeSums<T>, panel: &Panel<T>, from: T, arc: Arc<T>) {
+    let rule = GaussLegendre::suited(panel.length, arc.tangent);
     let by_x = T::one() / panel.half();
     let from = panel.local(from);
     let by_half_width = T::of(2.0) / arc.width;

@@ -33,11 +33,11 @@
 
 use super::half_angle::{HalfAngle, Sines};
 use super::near_far_sum::{Distance, NearFarSum, Seen};
-use super::panel::{Panel, Series, spans, within};
+use super::panel::{Panel, Series, across, unlike, within};
 use super::panel_set::FINEST;
 use super::reexpansion::{PanelAngles, reexpanded};
 use crate::numerics::chebyshev::{
-    Coeffs, MAX_SIZE, Table, by_size, second_kind, size_for, value_at, values,
+    Coeffs, MAX_SIZE, by_size, second_kind, size_for, value_at, values,
 };
 use crate::real::fma;
 use crate::{Interval, Real};
@@ -182,33 +182,23 @@ impl<T: Real> HilbertTransform<T> {
     /// Replaces a few panels by one series over the contact; `false` if it differs from one of them
     /// by more than rounding anywhere.
     fn merged(&mut self, panels: &[Panel<T>], on: Interval<T>) -> bool {
-        const N: usize = MAX_SIZE;
-        let mut whole = Panel { n: N, ..Panel::new([on.left, on.right]) };
-        let mut values = [T::zero(); N];
-        for (value, x) in values.iter_mut().zip(whole.nodes()) {
-            let holds = |panel: &&Panel<T>| x <= panel.x[1];
-            *value = panels.iter().find(holds).or(panels.last()).map_or(*value, |one| one.value(x));
-        }
-        whole.series = Table::of(N).coefficients(&values);
-        whole.count(N);
-        let size = |part| values.iter().fold(T::zero(), |max, g| max.max(g.component(part).abs()));
+        let whole = across::<MAX_SIZE, T>(panels, on);
+        let size = |part| {
+            let series = whole.coefficients().iter();
+            series.fold(T::zero(), |max, a| max.max(a.component(part).abs()))
+        };
         let allowed = |part| match part {
             0 => self.rounding.slope,
             part => T::of(FINEST) * T::epsilon() * size(part),
         };
-        // At the nodes of each part of the contact, however short.
-        let is_met = |(panel, x): (&Panel<T>, [T; 2])| {
-            let part = Panel { n: panel.n, ..Panel::new(x) };
-            part.nodes().all(|x| {
-                let missed = whole.value(x) - panel.value(x);
-                (0..T::COMPONENTS).all(|part| missed.component(part).abs() <= allowed(part))
-            })
+        let is_same = |missed: T, _| {
+            (0..T::COMPONENTS).all(|part| missed.component(part).abs() <= allowed(part))
         };
-        if !spans(panels, on).all(is_met) {
+        if unlike(panels, on, &whole, is_same).next().is_some() {
             return false;
         }
         self.changes.clear();
-        self.smooth = [T::zero(); N];
+        self.smooth = [T::zero(); MAX_SIZE];
         self.set_whole(whole.coefficients(), on);
         true
     }

@@ -6,6 +6,12 @@ use crate::numerics::chebyshev::{
 use crate::real::same;
 use crate::{Interval, Real};
 
+/// Largest number of coefficients of a slope whose pressure has no valley between 32 places.
+pub(super) const SMOOTH: usize = 16;
+
+/// Least number of panels for which one series over a contact is tried: fewer cost less than that.
+pub(super) const MANY: usize = 8;
+
 /// Slope of the gap over an interval without breakpoints, as a Chebyshev series.
 #[derive(Clone, Copy)]
 pub(crate) struct Panel<T> {
@@ -163,6 +169,19 @@ pub(super) fn within<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> &[Panel<T
     &panels[first.min(panels.len() - 1)..last.min(panels.len())]
 }
 
+/// Returns one panel over an interval, through values on its panels.
+pub(super) fn across<const N: usize, T: Real>(panels: &[Panel<T>], on: Interval<T>) -> Panel<T> {
+    let mut whole = Panel { n: N, ..Panel::new([on.left, on.right]) };
+    let mut values = [T::zero(); N];
+    for (value, x) in values.iter_mut().zip(whole.nodes()) {
+        let holds = |panel: &&Panel<T>| x <= panel.x[1];
+        *value = panels.iter().find(holds).or(panels.last()).map_or(*value, |one| one.value(x));
+    }
+    whole.series[..N].copy_from_slice(&Table::of(N).coefficients(&values));
+    whole.count(N);
+    whole
+}
+
 /// Lists panels with their parts of an interval; the outermost parts reach its ends.
 pub(super) fn spans<T: Real>(
     panels: &[Panel<T>],
@@ -174,6 +193,21 @@ pub(super) fn spans<T: Real>(
         let to = if i == last { on.right } else { panel.x[1] };
         (panel, [from, to])
     })
+}
+
+/// Lists the panels of a contact on which the slope is not that of a series over the contact, judged
+/// by the difference at the nodes of their part of the contact, given with their places.
+pub(super) fn unlike<'p, T: Real>(
+    panels: &'p [Panel<T>],
+    on: Interval<T>,
+    whole: &'p Panel<T>,
+    is_same: impl Fn(T, T) -> bool + 'p,
+) -> impl Iterator<Item = &'p Panel<T>> {
+    let differs = move |&(panel, x): &(&Panel<T>, [T; 2])| {
+        let part = Panel { n: panel.n, ..Panel::new(x) };
+        !part.nodes().all(|x| is_same(whole.value(x) - panel.value(x), x))
+    };
+    spans(panels, on).filter(differs).map(|(panel, _)| panel)
 }
 
 /// Verdict on the coefficients of a series.

@@ -42,7 +42,6 @@ pub(super) fn reexpanded<T: Real>(
     let zero = T::zero();
     let most = panels.iter().map(|panel| panel.length).max().unwrap_or(MAX_SIZE);
     let count = size_for(most) + 2;
-    let single = panels.len() == 1;
     let last = panels.len().saturating_sub(1);
     let ends_of = |i: usize| {
         let panel = &panels[i];
@@ -60,7 +59,7 @@ pub(super) fn reexpanded<T: Real>(
     for (i, panel) in panels.iter().enumerate() {
         let (series, terms) = panel.over(on);
         let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
-        if !(single || bulk <= most_bulk) {
+        if !(bulk <= most_bulk) {
             return false;
         }
         let ends = ends_of(i);

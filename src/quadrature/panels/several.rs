@@ -161,11 +161,10 @@ impl<T: Real> Several<T> {
 
     /// Prepares for pressures.
     pub fn press(&mut self) {
-        self.parts.iter_mut().for_each(OneOfSeveral::press);
-        let mut far = std::mem::replace(&mut self.far, FarField::new(Combine::Sum));
-        let contacts = self.contacts();
-        far.set(contacts, contacts.iter().copied(), &|k, x| self.parts[k].seen_from(x));
-        self.far = far;
+        let Self { parts, weight, far, .. } = self;
+        parts.iter_mut().for_each(OneOfSeveral::press);
+        let on = weight.contacts();
+        far.set(on, on.iter().copied(), &|k, x| parts[k].seen_from(x));
     }
 
     /// Returns the part of V by some contacts, at a place off them; near contact `near`, given the

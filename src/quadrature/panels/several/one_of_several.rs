@@ -3,7 +3,7 @@
 use super::super::edge_integrals::{self, EdgeSums};
 use super::super::hilbert_transform::{Edges, HilbertTransform, LANES};
 use super::super::near_far_sum::{NearFarSum, Seen};
-use super::super::panel::{Panel, Series, spans, within};
+use super::super::panel::{MANY, Panel, Series, spans, within};
 use super::super::panel_set::PanelSet;
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES, Table, by_size, power_series, size_for};
@@ -34,10 +34,6 @@ const LEAST_SPAN: f64 = 1e-3;
 /// Twice the largest share of the last two terms in a series over a whole contact, for a trial.
 /// Limits are then off by up to 1e-4 of a width, and by 1e-8 after one step on all panels.
 const TRIAL_TOLERANCE: f64 = 2e-5;
-
-/// Least number of panels for which a series over the whole contact is tried: fewer cost less than
-/// the step that it may take more.
-const LEAST_SAVED: usize = 8;
 
 /// Distance from a contact, in half-widths, from which on the cosine series of its panels is exact
 /// to rounding: its error there is u²⁴.
@@ -165,14 +161,16 @@ impl<T: Real> OneOfSeveral<T> {
     pub fn set(&mut self, weight: impl Fn(T) -> T, is_trial: bool) -> bool {
         let (on, tolerance) = (self.on, self.panel_set.tolerance);
         let saved = within(&self.panel_set.panels, on).len();
-        let is_trial = is_trial && saved >= LEAST_SAVED && self.on_one_panel(&weight);
+        let is_trial = is_trial && saved >= MANY && self.on_one_panel(&weight);
         if !is_trial {
             self.panels.clear();
             self.size = T::zero();
             for (panel, x) in spans(within(&self.panel_set.panels, on), on) {
                 self.waiting.clear();
                 self.waiting.push((x, 0));
-                let least = size_for((panel.length + 4).min(MAX_SIZE)).max(8);
+                // The weight bends over the whole of a contact.
+                let more = if x[1] - x[0] > on.half_width() { 4 } else { 0 };
+                let least = size_for((panel.length + more).min(MAX_SIZE)).max(8);
                 while let Some((x, halved)) = self.waiting.pop() {
                     let (product, resolved, moved) =
                         multiply(x, (&|x| panel.value(x), panel.error, least), &weight, tolerance);
@@ -193,7 +191,7 @@ impl<T: Real> OneOfSeveral<T> {
             }
         }
         let mut over = None;
-        self.moments = edge_integrals::moments(&self.panels, on, false, &mut over, None);
+        self.moments = edge_integrals::moments(&self.panels, on, &mut over, None);
         self.series = over.unwrap_or_else(|| {
             self.far.set(&self.panels, on, Seen::Outside);
             self.far.cosines()
@@ -300,8 +298,14 @@ fn multiply<T: Real>(
             product.series[..N].copy_from_slice(&table.coefficients(&row));
         });
         product.count(n);
-        let size = |terms: &[T]| terms.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-        let [all, last] = [size(&product.series[..n]), size(&product.series[n - 2..n])];
+        let size = |terms: &[T], part| {
+            terms.iter().fold(T::zero(), |max, a| max.max(a.component(part).abs()))
+        };
+        let parts = [0..n, n - 6..n - 4, n - 4..n - 2, n - 2..n];
+        let [all, earlier, before, last] = parts.map(|terms| size(&product.series[terms], 0));
+        // The coefficients left out fall like the last ones.
+        let fall = (last / before).max(before / earlier);
+        let last = if fall < T::of(0.3) { last * fall } else { last };
         // The rounding of x counts where the weight is steep.
         let bend = (values[n - 1] - values[0]).abs() / (x[1] - x[0]);
         let noise = error * largest + T::epsilon() * x[0].abs().max(x[1].abs()) * bend;
@@ -312,11 +316,8 @@ fn multiply<T: Real>(
         // moves.
         let small = T::epsilon().powf(T::of(0.75));
         moved = (1..T::COMPONENTS).all(|part| {
-            let size = |terms: &[T]| {
-                terms.iter().fold(T::zero(), |max, a| max.max(a.component(part).abs()))
-            };
-            let all = size(&product.series[..n]);
-            size(&product.series[n - 2..n]) <= small * all || !all.is_finite()
+            let all = size(&product.series[..n], part);
+            size(&product.series[n - 2..n], part) <= small * all || !all.is_finite()
         });
         if resolved && moved {
             break;

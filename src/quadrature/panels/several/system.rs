@@ -21,9 +21,14 @@
 //!
 //! A gap acts on another by the inverse square of their distance: next to its pole, `p/S` is odd.
 
-use crate::Real;
 use crate::numerics::{Combine, FarField, LinearSystem, dot};
+use crate::{Interval, Real};
 use std::ops::Range;
+
+/// Half-width of a gap, as a share of its distance, below which a pole sees the powers of its places,
+/// and their number.
+const NEAR: f64 = 0.125;
+const POWERS: usize = 12;
 
 /// Conditions on the free limits, from left to right, linearised.
 #[derive(Clone)]
@@ -86,22 +91,58 @@ impl<T: Real> Poles<T> {
         self.at.len() + usize::from(self.centre.is_some())
     }
 
-    /// Adds a share of Q at a place to a row.
-    pub fn add(&self, x: T, share: T, row: &mut [T]) {
+    /// Adds `Σ share Q(x)` over the pairs `[x, share]` of a gap to its row: far poles see the powers
+    /// of its places about the middle, which leave 1e-11 of a step of Newton's method.
+    pub fn add(&self, gap: Interval<T>, shares: &[[T; 2]], row: &mut [T]) {
+        let (zero, one, middle, half) = (T::zero(), T::one(), gap.centre(), gap.half_width());
+        let mut powers = [zero; POWERS];
+        for &[x, share] in shares {
+            let (t, mut term) = ((middle - x) / half, share);
+            for power in &mut powers {
+                *power += term;
+                term *= t;
+            }
+        }
         let (by_constants, by_known) = row.split_at_mut(self.count());
-        let both = by_constants.iter_mut().zip(by_known.iter_mut());
-        for ((by_constant, by_zero), (&at, &square)) in both.zip(self.at.iter().zip(&self.squares))
-        {
-            let away = T::one() / (x - at);
-            let by_pole = share * away;
-            *by_constant += by_pole;
-            *by_zero -= square * by_pole * away;
+        for (j, (&at, &square)) in self.at.iter().zip(&self.squares).enumerate() {
+            let near = one / (middle - at);
+            let ratio = half * near;
+            let [sum, slope] = if ratio.abs() > T::of(NEAR) {
+                shares.iter().fold([zero; 2], |[sum, slope], &[x, share]| {
+                    let away = one / (x - at);
+                    [sum + share * away, slope + share * away * away]
+                })
+            } else {
+                let all = powers.iter().enumerate().rev();
+                let [sum, slope] = all.fold([zero; 2], |[sum, slope], (m, &power)| {
+                    [sum * ratio + power, slope * ratio + T::count(m + 1) * power]
+                });
+                [sum * near, slope * near * near]
+            };
+            by_constants[j] += sum;
+            by_known[j] -= square * slope;
         }
         if let (Some(centre), [.., by_constant], [.., by_total]) =
             (self.centre, by_constants, by_known)
         {
-            *by_constant += share;
-            *by_total += share * (x - centre);
+            for &[x, share] in shares {
+                *by_constant += share;
+                *by_total += share * (x - centre);
+            }
+        }
+    }
+
+    /// Returns Q at a place for given constants and a given known part.
+    fn value(&self, x: T, known: &[T]) -> T {
+        let (constants, values) = known.split_at(self.count());
+        let poles = self.at.iter().zip(&self.squares).zip(constants.iter().zip(values));
+        let sum = poles.fold(T::zero(), |sum, ((&at, &square), (&constant, &value))| {
+            let away = T::one() / (x - at);
+            sum + away * (constant - square * value * away)
+        });
+        match (self.centre, constants, values) {
+            (Some(centre), &[.., constant], &[.., total]) => sum + constant + total * (x - centre),
+            _ => sum,
         }
     }
 }
@@ -169,12 +210,10 @@ impl<T: Real> System<T> {
         known.extend(balance.iter().map(|&value| -value));
         known.resize(2 * n, T::zero());
         step.clear();
-        for i in self.free.clone() {
-            row.clear();
-            row.resize(2 * n, T::zero());
-            poles.add(self.limits[i], -T::of(2.0) / (self.slopes[i] * self.at_ends[i]), row);
-            step.push(dot(row, known));
-        }
+        step.extend(self.free.clone().map(|i| {
+            let by_limit = -T::of(2.0) / (self.slopes[i] * self.at_ends[i]);
+            by_limit * poles.value(self.limits[i], known)
+        }));
         if let Some(Besides { by_limits, by_unknown, others }) = &self.besides {
             let value = values.get(by_limits.len()).map_or(T::zero(), |&value| value);
             let open = value - dot(by_limits, step);
