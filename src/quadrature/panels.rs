@@ -34,7 +34,7 @@ pub(crate) use edge_integrals::rise as rises_over;
 pub(crate) use half_angle::{Arc, HalfAngle};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
-use panel::{MANY, SMOOTH, Series};
+use panel::Series;
 use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System, contacts};
@@ -81,14 +81,8 @@ pub(crate) fn nodes<T: Real>(
 ) -> Vec<T> {
     let Some(integrator) = integrator.panels() else { return Vec::new() };
     let (PanelSet { panels, .. }, on) = integrator.contact(contact);
-    let panels = panel::within(panels, on);
-    let inside = |x: &T| on.contains(*x);
-    if panels.len() < MANY {
-        return panels.iter().flat_map(Panel::nodes).filter(inside).collect();
-    }
-    let whole = panel::across::<SMOOTH, T>(panels, on);
-    let panels = panel::unlike(panels, on, &whole, |missed, x| missed.abs() <= allowed(x));
-    panels.flat_map(Panel::nodes).filter(inside).collect()
+    let panels = panel::unlike_one(panel::within(panels, on), on, allowed);
+    panels.flat_map(Panel::nodes).filter(|&x| on.contains(x)).collect()
 }
 
 /// Lists the parts of one contact that lie on one panel each, with the panel's number of nodes;

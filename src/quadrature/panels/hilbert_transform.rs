@@ -24,8 +24,7 @@
 //!
 //! so that the integrals of q over all panels add up to one series in the `U_l`, as long as the
 //! series of each panel can be continued over the contact: the pressure then takes one series, and
-//! one more with a logarithm at each breakpoint. If they cannot be continued, one series may do for
-//! a few panels, as for two long ones beside the contact of a lighter load; otherwise see
+//! one more with a logarithm at each breakpoint. If they cannot be continued, see
 //! `near_far_sum.rs`.
 //!
 //! Every term has the factor w, or one that goes to zero like w, from the distances of x to the
@@ -33,12 +32,9 @@
 
 use super::half_angle::{HalfAngle, Sines};
 use super::near_far_sum::{Distance, NearFarSum, Seen};
-use super::panel::{Panel, Series, across, unlike, within};
-use super::panel_set::FINEST;
+use super::panel::{Panel, Series, within};
 use super::reexpansion::{PanelAngles, reexpanded};
-use crate::numerics::chebyshev::{
-    Coeffs, MAX_SIZE, by_size, second_kind, size_for, value_at, values,
-};
+use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, by_size, second_kind, size_for, values};
 use crate::real::fma;
 use crate::{Interval, Real};
 
@@ -131,8 +127,7 @@ impl<T: Real> HilbertTransform<T> {
         let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         let kink = size * rounding + T::of(64.0) * error;
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
-        self.is_far = panels.len() > MAX_CHANGES
-            || !(self.reexpanded(panels, over, on) || self.merged(panels, on));
+        self.is_far = panels.len() > MAX_CHANGES || !self.reexpanded(panels, over, on);
         if self.is_far {
             self.far.set(panels, on, Seen::Inside);
         }
@@ -153,16 +148,21 @@ impl<T: Real> HilbertTransform<T> {
             self.set_whole(&series[..*terms], on);
             return true;
         }
-        let mut before = ([zero; MAX_SIZE], 0, zero);
+        let mut before = ([zero; MAX_SIZE], 0);
         let every = reexpanded(panels, on, |span| {
             let PanelAngles { panel, series, terms, integrals, .. } = span;
             if !span.is_first {
-                self.changes.push(self.change(span, &before, on));
+                let (last, last_terms) = before;
+                self.changes.push(Change {
+                    breakpoint: Breakpoint::new(panel, span.start),
+                    series: std::array::from_fn(|k| series[k] - last[k]),
+                    terms: last_terms.max(*terms),
+                });
             }
             self.terms = self.terms.max(terms - 1);
             let smooth = &mut self.smooth;
             by_size!(size_for(*terms), N => add_smooth::<N, T>(smooth, series, integrals));
-            before = (*series, *terms, panel.error);
+            before = (*series, *terms);
         });
         let share = T::one() / on.half_width();
         self.smooth = self.smooth.map(|coefficient| coefficient * share);
@@ -177,51 +177,6 @@ impl<T: Real> HilbertTransform<T> {
         for (smooth, &coefficient) in self.smooth.iter_mut().zip(&series[1..]) {
             *smooth = share * coefficient;
         }
-    }
-
-    /// Replaces a few panels by one series over the contact; `false` if it differs from one of them
-    /// by more than rounding anywhere.
-    fn merged(&mut self, panels: &[Panel<T>], on: Interval<T>) -> bool {
-        let whole = across::<MAX_SIZE, T>(panels, on);
-        let size = |part| {
-            let series = whole.coefficients().iter();
-            series.fold(T::zero(), |max, a| max.max(a.component(part).abs()))
-        };
-        let allowed = |part| match part {
-            0 => self.rounding.slope,
-            part => T::of(FINEST) * T::epsilon() * size(part),
-        };
-        let is_same = |missed: T, _| {
-            (0..T::COMPONENTS).all(|part| missed.component(part).abs() <= allowed(part))
-        };
-        if unlike(panels, on, &whole, is_same).next().is_some() {
-            return false;
-        }
-        self.changes.clear();
-        self.smooth = [T::zero(); MAX_SIZE];
-        self.set_whole(whole.coefficients(), on);
-        true
-    }
-
-    /// Returns the change from the panel before, given by its series, terms and truncation error,
-    /// to this one.
-    fn change(
-        &self,
-        span: &PanelAngles<'_, T>,
-        (last, last_terms, last_error): &(Coeffs<T>, usize, T),
-        on: Interval<T>,
-    ) -> Change<T> {
-        let panel = span.panel;
-        let mut series: Coeffs<T> = std::array::from_fn(|k| span.series[k] - last[k]);
-        let terms = span.terms.max(*last_terms);
-        // At a breakpoint without a jump, noise would be a spike.
-        let z = (panel.x[0] - on.left) - (on.right - panel.x[0]);
-        let jump = value_at(&series[..terms], z / (on.right - on.left));
-        if jump.abs() <= self.rounding.slope + T::of(8.0) * (panel.error + *last_error) {
-            // A derivative may jump where the slope does not.
-            series[0] -= jump.component(0);
-        }
-        Change { breakpoint: Breakpoint::new(panel, span.start), series, terms }
     }
 
     /// Returns `π² R` at the first `count` points, strictly inside the contact; infinite where the

@@ -7,7 +7,7 @@ use crate::real::same;
 use crate::{Interval, Real};
 
 /// Largest number of coefficients of a slope whose pressure has no valley between 32 places.
-pub(super) const SMOOTH: usize = 16;
+const SMOOTH: usize = 16;
 
 /// Least number of panels for which one series over a contact is tried: fewer cost less than that.
 pub(super) const MANY: usize = 8;
@@ -169,17 +169,27 @@ pub(super) fn within<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> &[Panel<T
     &panels[first.min(panels.len() - 1)..last.min(panels.len())]
 }
 
-/// Returns one panel over an interval, through values on its panels.
-pub(super) fn across<const N: usize, T: Real>(panels: &[Panel<T>], on: Interval<T>) -> Panel<T> {
-    let mut whole = Panel { n: N, ..Panel::new([on.left, on.right]) };
-    let mut values = [T::zero(); N];
-    for (value, x) in values.iter_mut().zip(whole.nodes()) {
-        let holds = |panel: &&Panel<T>| x <= panel.x[1];
-        *value = panels.iter().find(holds).or(panels.last()).map_or(*value, |one| one.value(x));
+/// Lists the panels of a contact, of many those on which the slope differs at some node in the
+/// contact by more than allowed there from one smooth series over all of it.
+pub(super) fn unlike_one<T: Real>(
+    panels: &[Panel<T>],
+    on: Interval<T>,
+    allowed: impl Fn(T) -> T,
+) -> impl Iterator<Item = &Panel<T>> {
+    let (few, mut whole) = (panels.len() < MANY, Panel::new([on.left, on.right]));
+    let mut values = [T::zero(); SMOOTH];
+    whole.n = SMOOTH;
+    for (value, x) in values.iter_mut().zip(whole.nodes()).filter(|_| !few) {
+        let next = panels.partition_point(|panel| panel.x[1] < x);
+        *value = panels[next.min(panels.len() - 1)].value(x);
     }
-    whole.series[..N].copy_from_slice(&Table::of(N).coefficients(&values));
-    whole.count(N);
-    whole
+    whole.series[..SMOOTH].copy_from_slice(&Table::of(SMOOTH).coefficients(&values));
+    whole.count(SMOOTH);
+    panels.iter().filter(move |panel| {
+        let is_same = |x| (whole.value(x) - panel.value(x)).abs() <= allowed(x);
+        // A slope that is no number differs.
+        few || !panel.nodes().all(|x| !on.contains(x) || is_same(x))
+    })
 }
 
 /// Lists panels with their parts of an interval; the outermost parts reach its ends.
@@ -193,21 +203,6 @@ pub(super) fn spans<T: Real>(
         let to = if i == last { on.right } else { panel.x[1] };
         (panel, [from, to])
     })
-}
-
-/// Lists the panels of a contact on which the slope is not that of a series over the contact, judged
-/// by the difference at the nodes of their part of the contact, given with their places.
-pub(super) fn unlike<'p, T: Real>(
-    panels: &'p [Panel<T>],
-    on: Interval<T>,
-    whole: &'p Panel<T>,
-    is_same: impl Fn(T, T) -> bool + 'p,
-) -> impl Iterator<Item = &'p Panel<T>> {
-    let differs = move |&(panel, x): &(&Panel<T>, [T; 2])| {
-        let part = Panel { n: panel.n, ..Panel::new(x) };
-        !part.nodes().all(|x| is_same(whole.value(x) - panel.value(x), x))
-    };
-    spans(panels, on).filter(differs).map(|(panel, _)| panel)
 }
 
 /// Verdict on the coefficients of a series.

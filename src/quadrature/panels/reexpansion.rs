@@ -59,7 +59,7 @@ pub(super) fn reexpanded<T: Real>(
     for (i, panel) in panels.iter().enumerate() {
         let (series, terms) = panel.over(on);
         let bulk = series[..terms].iter().fold(zero, |sum, a| sum + a.abs());
-        if !(bulk <= most_bulk) {
+        if bulk > most_bulk {
             return false;
         }
         let ends = ends_of(i);
