@@ -33,8 +33,8 @@ pub(crate) use cauchy_transform::{CauchyTransform, inverse, length, sqrt};
 pub(crate) use edge_integrals::rise as rises_over;
 pub(crate) use half_angle::{Arc, HalfAngle};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
-pub(crate) use panel::Panel;
 use panel::Series;
+pub(crate) use panel::{Panel, nodes};
 use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System, contacts};
@@ -70,19 +70,6 @@ pub(crate) fn rises_on<T: Real>(
 pub(crate) fn rise<T: Real>(integrator: &dyn Integrator<T>, from: T, to: T) -> Option<T> {
     let (panel_set, _) = integrator.panels()?.only()?;
     Some(panel_set.rise(from, to) - panel_set.tilt * (to - from))
-}
-
-/// Lists the nodes in one contact, of many panels those where the slope differs by more than allowed
-/// from one smooth series over the contact; none without panels.
-pub(crate) fn nodes<T: Real>(
-    integrator: &dyn Integrator<T>,
-    contact: usize,
-    allowed: impl Fn(T) -> T,
-) -> Vec<T> {
-    let Some(integrator) = integrator.panels() else { return Vec::new() };
-    let (PanelSet { panels, .. }, on) = integrator.contact(contact);
-    let panels = panel::unlike_one(panel::within(panels, on), on, allowed);
-    panels.flat_map(Panel::nodes).filter(|&x| on.contains(x)).collect()
 }
 
 /// Lists the parts of one contact that lie on one panel each, with the panel's number of nodes;

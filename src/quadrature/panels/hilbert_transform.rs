@@ -24,15 +24,16 @@
 //!
 //! so that the integrals of q over all panels add up to one series in the `U_l`, as long as the
 //! series of each panel can be continued over the contact: the pressure then takes one series, and
-//! one more with a logarithm at each breakpoint. If they cannot be continued, see
-//! `near_far_sum.rs`.
+//! one more with a logarithm at each breakpoint. If they cannot be continued, one series may do for
+//! a few panels, as for pieces of a smooth body; otherwise see `near_far_sum.rs`.
 //!
 //! Every term has the factor w, or one that goes to zero like w, from the distances of x to the
 //! edges: R keeps its relative accuracy up to a free edge.
 
 use super::half_angle::{HalfAngle, Sines};
 use super::near_far_sum::{Distance, NearFarSum, Seen};
-use super::panel::{Panel, Series, within};
+use super::panel::{Panel, Series, across, within};
+use super::panel_set::FINEST;
 use super::reexpansion::{PanelAngles, reexpanded};
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, by_size, second_kind, size_for, values};
 use crate::real::fma;
@@ -127,7 +128,8 @@ impl<T: Real> HilbertTransform<T> {
         let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         let kink = size * rounding + T::of(64.0) * error;
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
-        self.is_far = panels.len() > MAX_CHANGES || !self.reexpanded(panels, over, on);
+        self.is_far = panels.len() > MAX_CHANGES
+            || !(self.reexpanded(panels, over, on) || self.merged(panels, on));
         if self.is_far {
             self.far.set(panels, on, Seen::Inside);
         }
@@ -177,6 +179,27 @@ impl<T: Real> HilbertTransform<T> {
         for (smooth, &coefficient) in self.smooth.iter_mut().zip(&series[1..]) {
             *smooth = share * coefficient;
         }
+    }
+
+    /// Replaces a few panels by one series over the contact; `false` if it differs from one of them
+    /// by more than rounding anywhere.
+    fn merged(&mut self, panels: &[Panel<T>], on: Interval<T>) -> bool {
+        let Rounding { slope, .. } = self.rounding;
+        let is_same = |whole: &Panel<T>, missed: T, _| {
+            (0..T::COMPONENTS).all(|part| {
+                let sizes = whole.coefficients().iter().map(|a| a.component(part).abs());
+                let rounding = || T::of(FINEST) * T::epsilon() * sizes.fold(T::zero(), T::max);
+                missed.component(part).abs() <= if part == 0 { slope } else { rounding() }
+            })
+        };
+        let (whole, mut others) = across::<MAX_SIZE, T>(panels, on, is_same);
+        if others.next().is_some() {
+            return false;
+        }
+        self.changes.clear();
+        self.smooth = [T::zero(); MAX_SIZE];
+        self.set_whole(whole.coefficients(), on);
+        true
     }
 
     /// Returns `π² R` at the first `count` points, strictly inside the contact; infinite where the

@@ -1,8 +1,10 @@
 //! One polynomial piece of the slope, and the verdict on its coefficients.
 
+use super::panel_set::PanelSet;
 use crate::numerics::chebyshev::{
     Coeffs, MAX_SIZE, SIZES, Table, expand, primitive, size_for, value_at, values,
 };
+use crate::quadrature::Integrator;
 use crate::real::same;
 use crate::{Interval, Real};
 
@@ -169,27 +171,44 @@ pub(super) fn within<T: Real>(panels: &[Panel<T>], on: Interval<T>) -> &[Panel<T
     &panels[first.min(panels.len() - 1)..last.min(panels.len())]
 }
 
-/// Lists the panels of a contact, of many those on which the slope differs at some node in the
-/// contact by more than allowed there from one smooth series over all of it.
-pub(super) fn unlike_one<T: Real>(
-    panels: &[Panel<T>],
+/// Returns a polynomial with N values of the slope over a contact, and the panels that differ from
+/// it at a node of their part of the contact, judged by the difference and the place.
+pub(super) fn across<'p, const N: usize, T: Real>(
+    panels: &'p [Panel<T>],
     on: Interval<T>,
-    allowed: impl Fn(T) -> T,
-) -> impl Iterator<Item = &Panel<T>> {
-    let (few, mut whole) = (panels.len() < MANY, Panel::new([on.left, on.right]));
-    let mut values = [T::zero(); SMOOTH];
-    whole.n = SMOOTH;
-    for (value, x) in values.iter_mut().zip(whole.nodes()).filter(|_| !few) {
+    is_same: impl Fn(&Panel<T>, T, T) -> bool + 'p,
+) -> (Panel<T>, impl Iterator<Item = &'p Panel<T>>) {
+    let mut whole = Panel { n: N, ..Panel::new([on.left, on.right]) };
+    let mut values = [T::zero(); N];
+    for (value, x) in values.iter_mut().zip(whole.nodes()) {
         let next = panels.partition_point(|panel| panel.x[1] < x);
         *value = panels[next.min(panels.len() - 1)].value(x);
     }
-    whole.series[..SMOOTH].copy_from_slice(&Table::of(SMOOTH).coefficients(&values));
-    whole.count(SMOOTH);
-    panels.iter().filter(move |panel| {
-        let is_same = |x| (whole.value(x) - panel.value(x)).abs() <= allowed(x);
-        // A slope that is no number differs.
-        few || !panel.nodes().all(|x| !on.contains(x) || is_same(x))
-    })
+    whole.series[..N].copy_from_slice(&Table::of(N).coefficients(&values));
+    whole.count(N);
+    let differs = move |&(panel, x): &(&Panel<T>, [T; 2])| {
+        let part = Panel { n: panel.n, ..Panel::new(x) };
+        !part.nodes().all(|x| is_same(&whole, whole.value(x) - panel.value(x), x))
+    };
+    (whole, spans(panels, on).filter(differs).map(|(panel, _)| panel))
+}
+
+/// Lists the nodes in one contact, of many panels those where the slope differs by more than allowed
+/// from one smooth series over the contact; none without panels.
+pub(crate) fn nodes<T: Real>(
+    integrator: &dyn Integrator<T>,
+    contact: usize,
+    allowed: impl Fn(T) -> T,
+) -> Vec<T> {
+    let contact = integrator.panels().map(|own| own.contact(contact));
+    let Some((PanelSet { panels, .. }, on)) = contact else { return Vec::new() };
+    let panels = within(panels, on);
+    let inside = |panel: &Panel<T>| panel.nodes().filter(|&x| on.contains(x)).collect::<Vec<T>>();
+    if panels.len() < MANY {
+        return panels.iter().flat_map(inside).collect();
+    }
+    let is_same = |_: &Panel<T>, missed: T, x| missed.abs() <= allowed(x);
+    across::<SMOOTH, T>(panels, on, is_same).1.flat_map(inside).collect()
 }
 
 /// Lists panels with their parts of an interval; the outermost parts reach its ends.

@@ -102,7 +102,9 @@ impl<T: Real> Several<T> {
         let [mut closed, mut size, mut over, mut by_own] = [zero; 4];
         // The integrals ∫ S/p_k dx/(x - e) for the two limits at the ends.
         let mut by_ends = [zero; 2];
-        let mut shares = Vec::with_capacity(64);
+        let mut row = std::mem::take(&mut system.row);
+        row.clear();
+        row.resize(2 * system.poles.count(), zero);
         self.through_gap(k, &system.far, |x, [from_left, to_right], value, root, dx| {
             let scale = root * dx;
             let share = scale * self.without_zero(k, system, x, value);
@@ -113,8 +115,12 @@ impl<T: Real> Several<T> {
             by_ends[1] -= scale / to_right;
             let away = own.map_or(T::one(), |own| x - own);
             by_own -= scale / (away * pi);
-            shares.push([x, -away * dx / (root * pi)]);
+            system.poles.add(x, -away * dx / (root * pi), &mut row);
         });
+        match own {
+            Some(_) => row[system.poles.count() + k] += by_own,
+            None => system.over_last = over,
+        }
         let [from, to] = [left.height(left.on.right), right.height(right.on.left)];
         let heights = left.height_size(from) + right.height_size(to);
         let rounding = T::of(4.0) * T::epsilon() * (heights + size);
@@ -129,19 +135,13 @@ impl<T: Real> Several<T> {
             let away = own.map_or(T::one(), |own| system.limits[i] - own);
             by_limits += (system.at_ends[i] / away / (pi + pi) * by_ends[end]).abs();
             let share = -(by_width + by_width) / (system.slopes[i] * system.at_ends[i]);
-            shares.push([system.limits[i], sign * share]);
+            system.poles.add(system.limits[i], sign * share, &mut row);
         }
         if by_limits * width <= rounding {
             system.lost.get_or_insert(k);
         }
-        let (n, from) = (system.poles.count(), system.rows.len());
-        system.rows.resize(from + 2 * n, zero);
-        let row = &mut system.rows[from..];
-        system.poles.add(Interval { left: left.on.right, right: right.on.left }, &shares, row);
-        match own {
-            Some(_) => row[n + k] += by_own,
-            None => system.over_last = over,
-        }
+        system.rows.extend_from_slice(&row);
+        system.row = row;
         system.add(open, rounding);
     }
 

@@ -21,14 +21,9 @@
 //!
 //! A gap acts on another by the inverse square of their distance: next to its pole, `p/S` is odd.
 
+use crate::Real;
 use crate::numerics::{Combine, FarField, LinearSystem, dot};
-use crate::{Interval, Real};
 use std::ops::Range;
-
-/// Half-width of a gap, as a share of its distance, below which a pole sees the powers of its places,
-/// and their number.
-const NEAR: f64 = 0.125;
-const POWERS: usize = 12;
 
 /// Conditions on the free limits, from left to right, linearised.
 #[derive(Clone)]
@@ -91,44 +86,20 @@ impl<T: Real> Poles<T> {
         self.at.len() + usize::from(self.centre.is_some())
     }
 
-    /// Adds `Σ share Q(x)` over the pairs `[x, share]` of a gap to its row: far poles see the powers
-    /// of its places about the middle, which leave 1e-11 of a step of Newton's method.
-    pub fn add(&self, gap: Interval<T>, shares: &[[T; 2]], row: &mut [T]) {
-        let (zero, one, middle, half) = (T::zero(), T::one(), gap.centre(), gap.half_width());
-        let mut powers = [zero; POWERS];
-        for &[x, share] in shares {
-            let (t, mut term) = ((middle - x) / half, share);
-            for power in &mut powers {
-                *power += term;
-                term *= t;
-            }
-        }
+    /// Adds a share of Q at a place to a row.
+    pub fn add(&self, x: T, share: T, row: &mut [T]) {
         let (by_constants, by_known) = row.split_at_mut(self.count());
-        for (j, (&at, &square)) in self.at.iter().zip(&self.squares).enumerate() {
-            let near = one / (middle - at);
-            let ratio = half * near;
-            let [sum, slope] = if ratio.abs() > T::of(NEAR) {
-                shares.iter().fold([zero; 2], |[sum, slope], &[x, share]| {
-                    let away = one / (x - at);
-                    [sum + share * away, slope + share * away * away]
-                })
-            } else {
-                let all = powers.iter().enumerate().rev();
-                let [sum, slope] = all.fold([zero; 2], |[sum, slope], (m, &power)| {
-                    [sum * ratio + power, slope * ratio + T::count(m + 1) * power]
-                });
-                [sum * near, slope * near * near]
-            };
-            by_constants[j] += sum;
-            by_known[j] -= square * slope;
-        }
-        if let (Some(centre), [.., by_constant], [.., by_total]) =
-            (self.centre, by_constants, by_known)
+        let both = by_constants.iter_mut().zip(by_known.iter_mut());
+        for ((by_constant, by_zero), (&at, &square)) in both.zip(self.at.iter().zip(&self.squares))
         {
-            for &[x, share] in shares {
-                *by_constant += share;
-                *by_total += share * (x - centre);
-            }
+            let away = T::one() / (x - at);
+            let by_pole = share * away;
+            *by_constant += by_pole;
+            *by_zero -= square * by_pole * away;
+        }
+        if let Some(centre) = self.centre {
+            by_constants[self.at.len()] += share;
+            by_known[self.at.len()] += share * (x - centre);
         }
     }
 
@@ -140,10 +111,8 @@ impl<T: Real> Poles<T> {
             let away = T::one() / (x - at);
             sum + away * (constant - square * value * away)
         });
-        match (self.centre, constants, values) {
-            (Some(centre), &[.., constant], &[.., total]) => sum + constant + total * (x - centre),
-            _ => sum,
-        }
+        let last = self.at.len();
+        self.centre.map_or(sum, |centre| sum + constants[last] + values[last] * (x - centre))
     }
 }
 
