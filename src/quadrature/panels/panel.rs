@@ -193,8 +193,8 @@ pub(super) fn across<'p, const N: usize, T: Real>(
     (whole, spans(panels, on).filter(differs).map(|(panel, _)| panel))
 }
 
-/// Lists the nodes in one contact, of many panels those where the slope differs by more than allowed
-/// from one smooth series over the contact; none without panels.
+/// Lists the nodes in one contact; none without panels. Of many panels, it lists those where the
+/// slope differs by more than allowed from one smooth series over the contact.
 pub(crate) fn nodes<T: Real>(
     integrator: &dyn Integrator<T>,
     contact: usize,
