@@ -58,16 +58,17 @@ pub(super) struct SignoriniCheck<'c, T: Real> {
     pub pressed: &'c [Interval<T>],
 }
 
-/// Spans of tension, and room for pressures `[x, P]`.
+/// Spans of tension, and room for nodes and pressures `[x, P]`.
 #[derive(Clone)]
 pub(super) struct TensionSpans<T> {
     pub spans: Vec<Interval<T>>,
+    nodes: Vec<T>,
     seen: Vec<[T; 2]>,
 }
 
 impl<T> TensionSpans<T> {
     pub fn new() -> Self {
-        Self { spans: Vec::new(), seen: Vec::new() }
+        Self { spans: Vec::new(), nodes: Vec::new(), seen: Vec::new() }
     }
 }
 
@@ -142,7 +143,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     pub fn tension(
         &self,
         fields: &mut ExteriorFields<T>,
-        TensionSpans { spans: tension_spans, seen }: &mut TensionSpans<T>,
+        TensionSpans { spans: tension_spans, nodes, seen }: &mut TensionSpans<T>,
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
         tension_spans.clear();
         let adhesive = self.found.adhesive != Ends::both(false);
@@ -178,8 +179,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let faint = T::of(FAINT) * T::pi() * least / self.kappa;
             let faint = |x: T| faint * on.chebyshev_weight(x);
             // Features that the panels resolve are not narrower than the spacing of their nodes.
-            let mut nodes = panels::nodes(self.integrator, i, faint);
-            nodes.retain(|&x| !self.is_pressed(x));
+            nodes.clear();
+            panels::nodes(self.integrator, i, faint, nodes);
+            nodes.retain(|&x| on.contains(x) && !self.is_pressed(x));
             for places in nodes.chunks(POINTS) {
                 let mut pressures = [T::zero(); POINTS];
                 let pressures = &mut pressures[..places.len()];

@@ -193,22 +193,22 @@ pub(super) fn across<'p, const N: usize, T: Real>(
     (whole, spans(panels, on).filter(differs).map(|(panel, _)| panel))
 }
 
-/// Lists the nodes in one contact; none without panels. Of many panels, it lists those where the
-/// slope differs by more than allowed from one smooth series over the contact.
+/// Adds the nodes of the panels of one contact, if there are panels. Of many, it adds those where
+/// the slope differs by more than allowed from one smooth series over the contact.
 pub(crate) fn nodes<T: Real>(
     integrator: &dyn Integrator<T>,
     contact: usize,
     allowed: impl Fn(T) -> T,
-) -> Vec<T> {
+    nodes: &mut Vec<T>,
+) {
     let contact = integrator.panels().map(|own| own.contact(contact));
-    let Some((PanelSet { panels, .. }, on)) = contact else { return Vec::new() };
+    let Some((PanelSet { panels, .. }, on)) = contact else { return };
     let panels = within(panels, on);
-    let inside = |panel: &Panel<T>| panel.nodes().filter(|&x| on.contains(x)).collect::<Vec<T>>();
     if panels.len() < MANY {
-        return panels.iter().flat_map(inside).collect();
+        return nodes.extend(panels.iter().flat_map(Panel::nodes));
     }
     let is_same = |_: &Panel<T>, missed: T, x| missed.abs() <= allowed(x);
-    across::<SMOOTH, T>(panels, on, is_same).1.flat_map(inside).collect()
+    nodes.extend(across::<SMOOTH, T>(panels, on, is_same).1.flat_map(Panel::nodes));
 }
 
 /// Lists panels with their parts of an interval; the outermost parts reach its ends.
