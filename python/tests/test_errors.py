@@ -373,7 +373,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"interval": (-0.1, 0.1)},
     ),
     (
-        lambda: lc.solve(FLAT, lc.Curve((-1, 1), saw), kappa=1.0, peak_pressure=0.07),
+        lambda: lc.solve(FLAT, lc.Curve((-1, 1), saw), kappa=1.0, load=0.0078),
         "BudgetSpentError",
         {"budget": (1 << 20) + 2048},
     ),
