@@ -70,9 +70,9 @@ impl<T: Real> EdgeSums<T> {
 /// Largest number of coefficients that are expanded anew as fast as they are moved.
 const FEW: usize = 8;
 
-/// Returns the edge integrals over a contact that the panels cover. If one
-/// panel holds the whole contact, `over` becomes its [series](Panel::over). If `from` is given, it
-/// is the series of the same panel over that contact, often one nearby.
+/// Returns the edge integrals over a contact that the panels cover. If one panel holds the whole
+/// contact, `over` becomes its [series](Panel::over). If `from` is given, it is the series of the
+/// same panel over that contact, often one nearby.
 pub(super) fn moments<T: Real>(
     panels: &[Panel<T>],
     on: Interval<T>,
