@@ -19,8 +19,8 @@ const MAX_UNDIVIDED: usize = 16;
 
 /// Numbers of moments of the forces of a group, and of places in it: both leave errors of about
 /// 1e-5.
-const MOMENTS: usize = 10;
-const PLACES: usize = 8;
+const MOMENTS: usize = 8;
+const PLACES: usize = 6;
 
 /// Abscissae and weights of Gauss's rule with three points on [-1/2, 1/2].
 const GAUSS: [(f64, f64); 3] = [
