@@ -10,7 +10,7 @@ use super::cauchy_transform::{WithDerivative, inverse, length, ln, sqrt};
 use super::half_angle::{Arc, HalfAngle};
 use super::hilbert_transform::{Breakpoint, Rounding};
 use super::panel::{Panel, spans};
-use super::treecode::{Group, group};
+use super::treecode::{Group, REACH, group};
 use crate::numerics::CompensatedSum;
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, value_at};
 use crate::numerics::gauss_legendre::GaussLegendre;
@@ -187,7 +187,7 @@ impl<T: Real> NearFarSum<T> {
             (length(place(from)) + length(place(to))) * width <= reach * (to - from)
         };
         self.show(
-            |group| reaches(group.ends(), T::of(GAUSS_REACH)),
+            |group| reaches(group.ends(), T::of(REACH)),
             |seen| match seen {
                 Distance::Group(group) => {
                     add(pulls(place(group.ends()[0]), group.charges(), by_width));

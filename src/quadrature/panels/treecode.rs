@@ -1,7 +1,7 @@
 //! A treecode: groups of panels, each seen as one from far enough away.
 //!
-//! From a distance of its own length and more, `1/(t - x)` over a group is a polynomial in t of
-//! degree 23 to rounding. The integral over the group is therefore a sum over 24 Chebyshev points,
+//! From a distance of twice its length and more, `1/(t - x)` over a group is a polynomial in t of
+//! degree 15 to rounding. The integral over the group is therefore a sum over 16 Chebyshev points,
 //! whatever the number of panels: with ℓ_m the polynomial that is 1 at the m-th point and 0 at the
 //! others,
 //!
@@ -18,11 +18,15 @@ use crate::Real;
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, Table};
 use std::ops::Range;
 
-/// Number of points that stand for a group: enough for rounding from its own length away.
-const POINTS: usize = 24;
+/// Number of points that stand for a group.
+const POINTS: usize = 16;
+
+/// Distance of a place from the middle of a group, in half-lengths, from which on these suffice:
+/// coefficient n of `1/(t - x)` is 9.9⁻ⁿ of the first.
+pub(super) const REACH: f64 = 5.0;
 
 /// Largest number of panels in a group that is not divided.
-const MAX_UNDIVIDED: usize = 3;
+const MAX_UNDIVIDED: usize = 5;
 
 /// Group of neighbouring panels.
 #[derive(Clone)]
@@ -54,14 +58,14 @@ pub(super) fn group<T: Real>(
     let within = &parts[numbers.clone()];
     let [Some(first), Some(last)] = [within.first(), within.last()] else { return };
     let (left, right) = (first.panel.x[0], last.panel.x[1]);
-    let length = right - left;
-    let (mut near, mut error) = ([left - length, right + length], T::zero());
+    let half = T::of(0.5) * (right - left);
+    let (middle, reach) = (left + half, T::of(REACH) * half);
+    let (mut near, mut error) = ([middle - reach, middle + reach], T::zero());
     for part in within {
         error += part.panel.error * (part.panel.half() + part.panel.half());
         let [from, to] = part.reached();
         near = [near[0].min(from), near[1].max(to)];
     }
-    let half = T::of(0.5) * length;
     let (number, weights) = (groups.len(), [T::zero(); POINTS]);
     let (parts_of, next) = (numbers.clone(), number + 1);
     groups.push(Group { parts: parts_of, near, left, half, weights, error, next });
