@@ -14,9 +14,9 @@ use std::ops::Range;
 /// at 2.5 half-lengths from the middle, so that coefficient n of a contribution falls as 4.79⁻ⁿ.
 const FAR_DISTANCE: f64 = 0.75;
 
-/// Numbers of coefficients that leave rounding: 4.79⁻²⁴ and 4.79⁻¹².
+/// Numbers of coefficients that leave rounding, 4.79⁻²⁴, and half the digits or that of f32, 4.79⁻¹².
 const COEFFICIENTS: usize = 24;
-const COEFFICIENTS_F32: usize = 12;
+const FEW_COEFFICIENTS: usize = 12;
 
 /// Smallest number of far intervals that make a series worth its cost.
 const LEAST_FAR: usize = 3;
@@ -42,6 +42,8 @@ impl Combine {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FarField<T> {
     combine: Combine,
+    /// Flag: half the digits of f64 suffice, or are all.
+    pub is_coarse: bool,
     nodes: Vec<Node<T>>,
     /// Number of the node of each place.
     of: Vec<usize>,
@@ -71,21 +73,24 @@ impl<T: Real> Node<T> {
 
 impl<T: Real> FarField<T> {
     pub fn new(combine: Combine) -> Self {
-        Self { combine, nodes: Vec::new(), of: Vec::new(), places: Vec::new() }
+        Self { combine, is_coarse: false, nodes: Vec::new(), of: Vec::new(), places: Vec::new() }
     }
 
     /// Takes intervals and the places from which they will be seen, both from left to right, and
-    /// the contribution of an interval, by its number, at a far x.
+    /// the contribution of an interval, by its number, at a far x. If coarse, half the digits of f64
+    /// suffice.
     pub fn set(
         &mut self,
         intervals: &[Interval<T>],
         places: impl Iterator<Item = Interval<T>>,
+        is_coarse: bool,
         contribution: &dyn Fn(usize, T) -> T,
     ) {
-        let (near, series) = (0..intervals.len(), [T::zero(); MAX_SIZE]);
+        self.is_coarse = is_coarse || T::epsilon() > T::of(1e-10);
+        let (near, series, zero) = (0..intervals.len(), [T::zero(); MAX_SIZE], T::zero());
         self.nodes.clear();
         self.of.clear();
-        let nowhere = Interval { left: T::zero(), right: T::zero() };
+        let nowhere = Interval { left: zero, right: zero };
         self.nodes.push(Node { near, places: nowhere, series, terms: 0 });
         // A place has some interval near.
         if intervals.len() <= LEAST_FAR {
@@ -119,8 +124,7 @@ impl<T: Real> FarField<T> {
         let mut number = above;
         if self.nodes[above].near.len() - near.len() >= LEAST_FAR {
             number = self.nodes.len();
-            let node = self.node(near, hull, above, contribution);
-            self.nodes.push(node);
+            self.nodes.push(self.node(near, hull, above, contribution));
         }
         if let [_] = places {
             self.of.push(number);
@@ -140,8 +144,7 @@ impl<T: Real> FarField<T> {
         contribution: &dyn Fn(usize, T) -> T,
     ) -> Node<T> {
         let above = &self.nodes[above];
-        let is_single = T::epsilon() > T::of(1e-10);
-        let terms = if is_single { COEFFICIENTS_F32 } else { COEFFICIENTS };
+        let terms = if self.is_coarse { FEW_COEFFICIENTS } else { COEFFICIENTS };
         let (half, mut series) = (places.half_width(), [T::zero(); MAX_SIZE]);
         by_size!(terms, N => {
             let table = Table::of(N);
@@ -201,7 +204,7 @@ mod tests {
             };
             let mut field = FarField::new(combine);
             let seen = std::cell::Cell::new(0);
-            field.set(&on, gaps.iter().copied(), &|i, x| {
+            field.set(&on, gaps.iter().copied(), false, &|i, x| {
                 seen.set(seen.get() + 1);
                 contribution(i, x)
             });

@@ -52,14 +52,13 @@ impl<T: Real> LinearSystem<T> {
         solution.clear();
         solution.extend_from_slice(right_side);
         for row in 0..n {
-            let factors = &self.factors[row * n..(row + 1) * n];
-            let known = dot(&factors[..row], &solution[..row]);
+            let known = dot(&self.factors[row * n..][..row], &solution[..row]);
             solution[row] -= known;
         }
         for row in (0..n).rev() {
             let factors = &self.factors[row * n..(row + 1) * n];
-            let known = dot(&factors[row + 1..], &solution[row + 1..]);
-            solution[row] = (solution[row] - known) / factors[row];
+            let rest = dot(&factors[row + 1..], &solution[row + 1..]);
+            solution[row] = (solution[row] - rest) / factors[row];
         }
         solution.resize(2 * n, T::zero());
         for (i, &unknown) in self.order.iter().enumerate() {

@@ -174,8 +174,8 @@ impl<T: Real> ExteriorFields<T> {
             places.push(Interval { left, right: left + width });
             (left, width) = (left + width, width + width);
         }
-        potential.set(on, places.iter().copied(), &|i, x| each[i].potential(x));
-        slope.set(on, places.iter().copied(), &|i, x| each[i].slope(x));
+        potential.set(on, places.iter().copied(), false, &|i, x| each[i].potential(x));
+        slope.set(on, places.iter().copied(), false, &|i, x| each[i].slope(x));
     }
 
     /// Returns `∫ P ln|x - s| ds` over all contacts, at a place that is not inside any.

@@ -112,7 +112,7 @@ impl<T: Real> Several<T> {
 
     /// Sets the contacts, between the ends of the bodies, and the outermost limits that are
     /// corners: ready for the conditions on the limits, not yet for pressures. Keeps the samples of
-    /// earlier contacts. Tells whether a trial has saved panels.
+    /// earlier contacts. For a trial a few digits suffice.
     pub fn set(
         &mut self,
         gap: &Gap<'_, T>,
@@ -120,8 +120,8 @@ impl<T: Real> Several<T> {
         corners: Ends<bool>,
         ends: Ends<T>,
         is_trial: bool,
-    ) -> Result<bool, ContactError<T>> {
-        self.weight.set(on, corners);
+    ) -> Result<(), ContactError<T>> {
+        self.weight.set(on, corners, is_trial);
         if on.len() != self.parts.len() {
             let mut known = std::mem::take(&mut self.parts);
             self.parts.extend(on.iter().map(|on| {
@@ -130,7 +130,7 @@ impl<T: Real> Several<T> {
                 found.unwrap_or_else(|| OneOfSeveral::new(self.tolerance))
             }));
         }
-        let (half, mut is_tried) = (T::of(0.5), false);
+        let half = T::of(0.5);
         for (i, part) in self.parts.iter_mut().enumerate() {
             // No contact is sampled beyond the middle of a gap.
             let from = if i == 0 { ends.left } else { half * on[i - 1].right + half * on[i].left };
@@ -142,9 +142,9 @@ impl<T: Real> Several<T> {
             // A gap narrower than a trial's outermost node is far from the limit would not count.
             let room = (on[i].left - from).min(to - on[i].right);
             let is_trial = is_trial && room > T::of(LEAST_TRIAL_ROOM) * on[i].half_width();
-            is_tried |= part.set(|x| self.weight.on_contact(i, x), is_trial);
+            part.set(|x| self.weight.on_contact(i, x), is_trial);
         }
-        Ok(is_tried)
+        Ok(())
     }
 
     /// Samples between the nodes of all contacts; tells whether panels have missed a feature.
@@ -164,7 +164,7 @@ impl<T: Real> Several<T> {
         let Self { parts, weight, far, .. } = self;
         parts.iter_mut().for_each(OneOfSeveral::press);
         let on = weight.contacts();
-        far.set(on, on.iter().copied(), &|k, x| parts[k].seen_from(x));
+        far.set(on, on.iter().copied(), false, &|k, x| parts[k].seen_from(x));
     }
 
     /// Returns the part of V by some contacts, at a place off them; near contact `near`, given the

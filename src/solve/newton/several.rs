@@ -7,8 +7,9 @@
 //! closes, or the contact does not exist; and a gap closes that the heights of the bodies no longer
 //! resolve. The caller starts again without all of these.
 //!
-//! While steps are long, contacts of many panels are taken as one panel each: a trial, whose limits
-//! are off by some 1e-4 of a width. Then two steps on all panels suffice.
+//! The first steps are trials: contacts of many panels are taken as one panel each, and half the
+//! digits suffice for gaps and for contacts far from each other. A trial leaves limits off by some
+//! 1e-4 of a width; then two steps with all digits suffice.
 
 mod widths;
 
@@ -30,7 +31,10 @@ const MAX_CUT: i32 = 9;
 
 /// Size of a step after which trials end: the limits are then off by about its square, like those
 /// of a trial.
-const LAST_TRIAL: f64 = 0.01;
+const LAST_TRIAL: f64 = 0.02;
+
+/// Largest number of trials: next to a contact a billionth of a gap they may never settle.
+const MAX_TRIALS: usize = 12;
 
 /// Number of conditions from one to the next whose uncertainties are taken together: the errors of
 /// the limits are then a few per cent smaller than from each by itself.
@@ -155,7 +159,8 @@ impl<T: Real> NewtonSeveral<T> {
         self.cut.clear();
         self.cut.resize(2 * self.on.len() - 1, 0);
         let mut turned = conditions.gap.tilted(self.tilt);
-        for _ in 0..MAX_STEPS {
+        for number in 0..MAX_STEPS {
+            self.is_trial &= number < MAX_TRIALS;
             if let Err(stop) = self.assemble(several, &turned, conditions)? {
                 return Ok(Err(stop));
             }
@@ -205,7 +210,7 @@ impl<T: Real> NewtonSeveral<T> {
             return Ok(Err(Stop::Gone));
         }
         let Conditions { corners, ends, .. } = *conditions;
-        self.is_trial = several.set(turned, &self.on, corners, ends, self.is_trial)?;
+        several.set(turned, &self.on, corners, ends, self.is_trial)?;
         several.system(self.load, &mut self.system);
         match conditions.besides {
             Some(Besides::Tilt(at)) => several.turning(conditions.load, at, &mut self.system),
@@ -290,14 +295,18 @@ impl<T: Real> NewtonSeveral<T> {
     /// Tells whether the last step, of this size, was short enough, or as short as rounding allows.
     fn accept(&mut self, size: T) -> bool {
         let judged = self.progress.judge([size, T::zero()]);
+        // A limit moves no further than x is rounded.
+        let least = T::of(0.5) * T::epsilon() * size / judged.next[0];
+        let share = |on: Interval<T>, x: T| least * (T::one() + x.abs() / on.half_width());
+        let shares = self.on.iter().flat_map(|&on| [on.left, on.right].map(|x| share(on, x)));
+        let is_done = judged.is_done || self.is_within(shares);
         let is_short = size <= T::epsilon().sqrt();
         let is_stalled =
             judged.is_stalled && (is_short || self.is_within(std::iter::repeat(T::of(MAX_DOUBT))));
-        if judged.is_done || is_stalled {
+        if is_done || is_stalled {
             self.estimate();
         }
-        if judged.is_done || is_stalled && (is_short || self.is_within(self.errors.iter().copied()))
-        {
+        if is_done || is_stalled && (is_short || self.is_within(self.errors.iter().copied())) {
             if judged.is_stalled {
                 for (i, step) in self.moves.iter().enumerate() {
                     self.errors[i] += step.abs() / self.on[i / 2].half_width();

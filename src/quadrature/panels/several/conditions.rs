@@ -22,7 +22,7 @@ impl<T: Real> Several<T> {
         let contacts = self.contacts();
         let gap = |pair: &[Interval<T>]| Interval { left: pair[0].right, right: pair[1].left };
         let part = |k: usize, x: T| self.parts[k].seen_from(x);
-        system.far.set(contacts, contacts.windows(2).map(gap), &part);
+        system.far.set(contacts, contacts.windows(2).map(gap), self.weight.far.is_coarse, &part);
         let System { residual, open, limits, at_ends, slopes, rows, poles, .. } = system;
         let [at, squares] = [&mut poles.at, &mut poles.squares];
         for known in [residual, open, limits, at_ends, slopes, rows, at, squares] {
@@ -148,7 +148,8 @@ impl<T: Real> Several<T> {
     /// Shows the nodes of rules from both ends of a gap to its middle: the place, its distances to
     /// the ends, V, `S/p` without the zero of p, and dx.
     fn through_gap(&self, k: usize, far: &FarField<T>, mut show: impl FnMut(T, [T; 2], T, T, T)) {
-        let (one, half, rule) = (T::one(), T::of(0.5), GaussLegendre::sixteen());
+        let (one, half) = (T::one(), T::of(0.5));
+        let rule = if far.is_coarse { GaussLegendre::coarsest() } else { GaussLegendre::sixteen() };
         let [left, right] = [k, k + 1].map(|i| self.parts[i].on);
         let width = right.left - left.right;
         for (near, on, edge, sign) in [(k, left, left.right, one), (k + 1, right, right.left, -one)]

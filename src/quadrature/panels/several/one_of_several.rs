@@ -36,8 +36,8 @@ const LEAST_SPAN: f64 = 1e-3;
 const TRIAL_TOLERANCE: f64 = 2e-5;
 
 /// Distance from a contact, in half-widths, from which on the cosine series of its panels is exact
-/// to rounding: its error there is u²⁴.
-const FAR_DISTANCE: f64 = 2.0;
+/// to rounding: its error there is u¹⁶.
+const FAR_DISTANCE: f64 = 4.0;
 
 #[derive(Clone)]
 pub(super) struct OneOfSeveral<T> {
@@ -156,13 +156,12 @@ impl<T: Real> OneOfSeveral<T> {
         height.abs() + self.height.map_or(T::zero(), |[_, height]| height.abs())
     }
 
-    /// Multiplies the slope by a weight, and prepares for the conditions on the limits. Tells
-    /// whether one panel is almost enough, for a trial.
-    pub fn set(&mut self, weight: impl Fn(T) -> T, is_trial: bool) -> bool {
+    /// Multiplies the slope by a weight, and prepares for the conditions on the limits; on
+    /// one panel if that is almost enough, for a trial.
+    pub fn set(&mut self, weight: impl Fn(T) -> T, is_trial: bool) {
         let (on, tolerance) = (self.on, self.panel_set.tolerance);
         let saved = within(&self.panel_set.panels, on).len();
-        let is_trial = is_trial && saved >= MANY && self.on_one_panel(&weight);
-        if !is_trial {
+        if !(is_trial && saved >= MANY && self.on_one_panel(&weight)) {
             self.panels.clear();
             self.size = T::zero();
             for (panel, x) in spans(within(&self.panel_set.panels, on), on) {
@@ -196,7 +195,6 @@ impl<T: Real> OneOfSeveral<T> {
             self.far.set(&self.panels, on, Seen::Outside);
             self.far.cosines()
         });
-        is_trial
     }
 
     /// Multiplies the slope by a weight on one panel; tells whether that is almost enough.

@@ -18,8 +18,9 @@ use std::ops::Range;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Weight<T> {
     on: Vec<Interval<T>>,
-    /// Squares of the factors by far contacts, for each contact and for the gap after it.
-    far: FarField<T>,
+    /// Squares of the factors by far contacts, for each contact and for the gap after it; coarse for
+    /// a trial.
+    pub far: FarField<T>,
     /// True at an outermost limit that is a corner.
     corners: Ends<bool>,
     zeros: Vec<T>,
@@ -31,7 +32,7 @@ impl<T: Real> Weight<T> {
         Self { on: Vec::new(), far, corners, zeros: Vec::new() }
     }
 
-    pub fn set(&mut self, on: &[Interval<T>], corners: Ends<bool>) {
+    pub fn set(&mut self, on: &[Interval<T>], corners: Ends<bool>, is_coarse: bool) {
         self.on.clear();
         self.on.extend_from_slice(on);
         self.corners = corners;
@@ -43,7 +44,7 @@ impl<T: Real> Weight<T> {
         let gap = |i: usize| Interval { left: on[i].right, right: on[i + 1].left };
         let place = |i: usize| if i.is_multiple_of(2) { on[i / 2] } else { gap(i / 2) };
         let mut far = std::mem::replace(&mut self.far, FarField::new(Combine::Product));
-        far.set(on, (0..2 * on.len() - 1).map(place), &|k, x| {
+        far.set(on, (0..2 * on.len() - 1).map(place), is_coarse, &|k, x| {
             let [on, zero] = self.factors(k, x > on[k].right, x);
             zero / on
         });
