@@ -14,7 +14,7 @@ use std::ops::Range;
 /// at 2.5 half-lengths from the middle, so that coefficient n of a contribution falls as 4.79⁻ⁿ.
 const FAR_DISTANCE: f64 = 0.75;
 
-/// Numbers of coefficients that leave rounding, 4.79⁻²⁴, and half the digits or that of f32, 4.79⁻¹².
+/// Numbers of coefficients that leave rounding of f64, 4.79⁻²⁴, and half its digits, 4.79⁻¹².
 const COEFFICIENTS: usize = 24;
 const FEW_COEFFICIENTS: usize = 12;
 
