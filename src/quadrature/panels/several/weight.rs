@@ -18,8 +18,8 @@ use std::ops::Range;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Weight<T> {
     on: Vec<Interval<T>>,
-    /// Squares of the factors by far contacts, for each contact and for the gap after it; coarse for
-    /// a trial.
+    /// Squares of the factors by far contacts, for each contact and for the gap after it; coarse
+    /// for a trial.
     pub far: FarField<T>,
     /// True at an outermost limit that is a corner.
     corners: Ends<bool>,
