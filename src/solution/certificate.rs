@@ -112,7 +112,7 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
         let row = cells.over(&cells.places(on.left, on.right, on.half_width()))?;
         slopes.push(extremes(&row.panels));
         let steepest = slopes[i].into_iter().fold(T::zero(), |most, slope| most.max(slope.abs()));
-        doubt = doubt.max(cells.compare(&row.panels, |x| assumed(solved, i, x), steepest)?);
+        doubt = doubt.max(cells.compare(&row.panels, |x| solved.sampled_slope(i, x), steepest)?);
         rows.push(row);
     }
     let (mut several, mut system) = (Several::sampled(rows), System::new());
@@ -193,15 +193,6 @@ impl<T: Real> Loaded<'_, T> {
         }
         Ok(closest)
     }
-}
-
-/// Returns the slope of the gap that a solver assumes in one of its contacts, and its uncertainty.
-fn assumed<T: Real>(solved: Solved<'_, T>, contact: usize, x: T) -> Option<(T, T)> {
-    let doubt = match solved.several().map(|several| several.panel_set(contact)) {
-        Some(panels) => panels.doubt(x)?,
-        None => solved.integrator.doubt(x)?,
-    };
-    Some((solved.sampled_slope(contact, x)?, doubt))
 }
 
 /// Refuses corners that pull.

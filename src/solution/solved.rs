@@ -21,11 +21,12 @@ impl<'s, T: Real> Solved<'s, T> {
         panels::several(self.integrator)
     }
 
-    /// Returns the slope of the gap in a contact from the samples of the solve, if they cover x.
-    pub fn sampled_slope(&self, contact: usize, x: T) -> Option<T> {
-        match self.several() {
-            Some(several) => several.panel_set(contact).slope(x),
-            None => self.integrator.slope(x),
+    /// Returns the slope of the gap in a contact from the samples of the solve, and its uncertainty,
+    /// if they cover x.
+    pub fn sampled_slope(&self, contact: usize, x: T) -> Option<(T, T)> {
+        match self.several().map(|several| several.panel_set(contact)) {
+            Some(panels) => Some((panels.slope(x)?, panels.doubt(x)?)),
+            None => Some((self.integrator.slope(x)?, self.integrator.doubt(x)?)),
         }
     }
 

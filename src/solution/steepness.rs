@@ -23,7 +23,7 @@ impl<T: Real> Solution<'_, T> {
         let solved = self.solved();
         let steep = |slope: T| slope.abs() > T::of(STEEPEST_HALF_PLANE);
         let mut slopes = limits.flat_map(|(i, limits)| limits.map(|x| solved.sampled_slope(i, x)));
-        slopes.any(|slope| slope.is_some_and(steep))
+        slopes.any(|slope| slope.is_some_and(|(slope, _)| steep(slope)))
     }
 
     /// Returns the largest slope `|f'|` of either surface within the contacts, before loading: a

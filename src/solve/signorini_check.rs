@@ -12,7 +12,7 @@ use super::exterior_field::{ExteriorField, ExteriorFields, POINTS};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels;
 use crate::quadrature::{Integrator, LoadCase};
-use crate::solution::ContactState;
+use crate::solution::{ContactState, Solved};
 use crate::{ContactError, Ends, Interval, Real, Side};
 pub(super) use outside::Overlaps;
 pub(super) use passed::{Passed, Under};
@@ -157,6 +157,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             return Ok(None);
         }
         self.fields(fields)?;
+        let Self { gap, integrator, kappa, found, .. } = *self;
+        let solved = Solved { gap, integrator, kappa, found };
         let mut found: Vec<[T; 2]> = Vec::new();
         let mut meet = |x: T, pressure: T, allowed: T| {
             // NaN counts as tension.
@@ -176,8 +178,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             seen.extend(both.map(|(x, &pressure)| [x, pressure]));
             let by_weight = |least: T, &[x, p]: &[T; 2]| least.min(p / on.chebyshev_weight(x));
             let least = seen.iter().fold(T::one() / T::zero(), by_weight).max(T::zero());
-            let faint = T::of(FAINT) * T::pi() * least / self.kappa;
-            let faint = |x: T| faint * on.chebyshev_weight(x);
+            let faint = |x: T| T::of(FAINT) * T::pi() * least / self.kappa * on.chebyshev_weight(x);
             // Features that the panels resolve are not narrower than the spacing of their nodes.
             nodes.clear();
             panels::nodes(self.integrator, i, faint, nodes);
@@ -221,7 +222,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             // Where the slope jumps down, the pressure goes to minus infinity.
             for breakpoint in self.gap.telling_breakpoints(on, -T::one(), MAX_JOINTS) {
-                let doubt = self.integrator.doubt(breakpoint).unwrap_or(T::zero());
+                let doubt = solved.sampled_slope(i, breakpoint).map_or(T::zero(), |of| of.1);
                 if self.gap.jump(breakpoint)[0].abs() > T::of(16.0) * doubt {
                     let mut pressure = [T::zero()];
                     self.pressures(&[breakpoint], &mut pressure)?;
