@@ -21,7 +21,7 @@ impl<'s, T: Real> Solved<'s, T> {
         panels::several(self.integrator)
     }
 
-    /// Returns the slope of the gap in a contact from the samples of the solve, and its uncertainty,
+    /// Returns the slope of the gap in a contact, and its uncertainty, from the samples of the solve
     /// if they cover x.
     pub fn sampled_slope(&self, contact: usize, x: T) -> Option<(T, T)> {
         match self.several().map(|several| several.panel_set(contact)) {

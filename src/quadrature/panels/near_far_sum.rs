@@ -12,7 +12,7 @@ use super::hilbert_transform::{Breakpoint, Rounding};
 use super::panel::{Panel, spans};
 use super::treecode::{Group, REACH, group};
 use crate::numerics::CompensatedSum;
-use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, value_at};
+use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, values};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Interval, Real};
 use nalgebra::Complex;
@@ -274,9 +274,8 @@ impl<T: Real> FarPanel<T> {
                 }
             }
             if !is_near {
-                for i in 0..W {
-                    nodes.push([along[i], weight[i] * value_at(panel.coefficients(), s[i])]);
-                }
+                let g = values(panel.coefficients(), &s);
+                nodes.extend((0..W).map(|i| [along[i], weight[i] * g[i]]));
             }
         }
         for (k, integral) in integrals[..panel.length].iter_mut().enumerate() {
