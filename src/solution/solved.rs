@@ -21,8 +21,8 @@ impl<'s, T: Real> Solved<'s, T> {
         panels::several(self.integrator)
     }
 
-    /// Returns the slope of the gap in a contact, and its uncertainty, from the samples of the solve
-    /// if they cover x.
+    /// Returns the slope of the gap in a contact, and its uncertainty; `None` if the samples of the
+    /// solve do not cover x.
     pub fn sampled_slope(&self, contact: usize, x: T) -> Option<(T, T)> {
         match self.several().map(|several| several.panel_set(contact)) {
             Some(panels) => Some((panels.slope(x)?, panels.doubt(x)?)),
