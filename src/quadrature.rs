@@ -112,11 +112,6 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
         None
     }
 
-    /// Returns the uncertainty of [`slope`](Self::slope) at a point.
-    fn doubt(&self, _x: T) -> Option<T> {
-        None
-    }
-
     /// Forgets the samples, but not the cost.
     fn clear_samples(&mut self) {}
 

@@ -231,7 +231,7 @@ impl<T: Real> PanelIntegrator<T> {
     }
 
     /// Returns the panels that hold one contact, and the contact.
-    fn contact(&self, i: usize) -> (&PanelSet<T>, Interval<T>) {
+    pub(crate) fn contact(&self, i: usize) -> (&PanelSet<T>, Interval<T>) {
         self.only().unwrap_or_else(|| (self.several.panel_set(i), self.several.contacts()[i]))
     }
 
@@ -450,10 +450,6 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
 
     fn slope(&self, x: T) -> Option<T> {
         self.panel_set.slope(x)
-    }
-
-    fn doubt(&self, x: T) -> Option<T> {
-        self.panel_set.doubt(x)
     }
 
     fn clear_samples(&mut self) {

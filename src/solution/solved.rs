@@ -21,13 +21,11 @@ impl<'s, T: Real> Solved<'s, T> {
         panels::several(self.integrator)
     }
 
-    /// Returns the slope of the gap in a contact, and its uncertainty; `None` if the samples of the
-    /// solve do not cover x.
+    /// Returns the slope of the gap in a contact on its panels, and its uncertainty; `None` without
+    /// panels.
     pub fn sampled_slope(&self, contact: usize, x: T) -> Option<(T, T)> {
-        match self.several().map(|several| several.panel_set(contact)) {
-            Some(panels) => Some((panels.slope(x)?, panels.doubt(x)?)),
-            None => Some((self.integrator.slope(x)?, self.integrator.doubt(x)?)),
-        }
+        let (panels, _) = self.integrator.panels()?.contact(contact);
+        Some((panels.slope(x)?, panels.doubt(x)?))
     }
 
     /// Returns the contacts, from left to right.

@@ -12,16 +12,12 @@ use super::exterior_field::{ExteriorField, ExteriorFields, POINTS};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels;
 use crate::quadrature::{Integrator, LoadCase};
-use crate::solution::{ContactState, Solved};
+use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
 pub(super) use outside::Overlaps;
 pub(super) use passed::{Passed, Under};
 use std::cmp::Ordering;
 pub(super) use step::step_of_heights;
-
-/// Largest number of breakpoints of a contact at which the pressure is evaluated, besides those
-/// where the slope jumps down.
-const MAX_JOINTS: usize = 64;
 
 /// Largest number of places with tension whose uncertainty is estimated.
 const MAX_DOUBTFUL: usize = 256;
@@ -157,8 +153,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
             return Ok(None);
         }
         self.fields(fields)?;
-        let Self { gap, integrator, kappa, found, .. } = *self;
-        let solved = Solved { gap, integrator, kappa, found };
         let mut found: Vec<[T; 2]> = Vec::new();
         let mut meet = |x: T, pressure: T, allowed: T| {
             // NaN counts as tension.
@@ -218,15 +212,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     } else {
                         ([x[1], vertex, x[2]], [p[1], pressure[0], p[2]])
                     };
-                }
-            }
-            // Where the slope jumps down, the pressure goes to minus infinity.
-            for breakpoint in self.gap.telling_breakpoints(on, -T::one(), MAX_JOINTS) {
-                let doubt = solved.sampled_slope(i, breakpoint).map_or(T::zero(), |of| of.1);
-                if self.gap.jump(breakpoint)[0].abs() > T::of(16.0) * doubt {
-                    let mut pressure = [T::zero()];
-                    self.pressures(&[breakpoint], &mut pressure)?;
-                    meet(breakpoint, pressure[0], allowed);
                 }
             }
         }

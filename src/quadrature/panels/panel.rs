@@ -193,8 +193,13 @@ pub(super) fn across<'p, const N: usize, T: Real>(
     (whole, spans(panels, on).filter(differs).map(|(panel, _)| panel))
 }
 
-/// Adds the nodes of the panels of one contact, if there are panels. Of many, it adds those where
-/// the slope differs by more than allowed from one smooth series over the contact.
+/// Least fall of the slope from one panel to the next, in units of its error, that is no rounding:
+/// there the pressure goes to minus infinity.
+const LEAST_FALL: f64 = 16.0;
+
+/// Adds the nodes of the panels of one contact, if there are panels, and the places where the slope
+/// falls. Of many panels, it adds those whose slope differs by more than allowed from one smooth
+/// series over the contact.
 pub(crate) fn nodes<T: Real>(
     integrator: &dyn Integrator<T>,
     contact: usize,
@@ -202,8 +207,13 @@ pub(crate) fn nodes<T: Real>(
     nodes: &mut Vec<T>,
 ) {
     let contact = integrator.panels().map(|own| own.contact(contact));
-    let Some((PanelSet { panels, .. }, on)) = contact else { return };
+    let Some((PanelSet { panels, tolerance, size, .. }, on)) = contact else { return };
     let panels = within(panels, on);
+    let falls = |pair: &&[Panel<T>]| {
+        let error = pair[0].error.max(pair[1].error) + *tolerance * *size;
+        pair[0].at_ends()[1] - pair[1].at_ends()[0] > T::of(LEAST_FALL) * error
+    };
+    nodes.extend(panels.windows(2).filter(falls).map(|pair| pair[0].x[1]));
     if panels.len() < MANY {
         return nodes.extend(panels.iter().flat_map(Panel::nodes));
     }
