@@ -6,7 +6,7 @@
 //! and all others through the series of its node. For N intervals and places, the series cost
 //! O(N log N) contributions.
 
-use super::chebyshev::{Coeffs, MAX_SIZE, Table, by_size, value_at};
+use super::chebyshev::{Coeffs, MAX_SIZE, Table, by_size, values};
 use crate::{Interval, Real};
 use std::ops::Range;
 
@@ -62,12 +62,12 @@ struct Node<T> {
 }
 
 impl<T: Real> Node<T> {
-    fn value(&self, x: T, nothing: T) -> T {
+    fn values<const W: usize>(&self, x: [T; W], nothing: T) -> [T; W] {
         if self.terms == 0 {
-            return nothing;
+            return [nothing; W];
         }
         let Interval { left, right } = self.places;
-        value_at(&self.series[..self.terms], ((x - left) - (right - x)) / (right - left))
+        values(&self.series[..self.terms], &x.map(|x| ((x - left) - (right - x)) / (right - left)))
     }
 }
 
@@ -151,7 +151,7 @@ impl<T: Real> FarField<T> {
             let values: [T; N] = std::array::from_fn(|j| {
                 let x = places.left + half * T::of(1.0 + table.z[j]);
                 let far = (above.near.start..near.start).chain(near.end..above.near.end);
-                far.fold(above.value(x, self.combine.nothing()), |all, i| {
+                far.fold(above.values([x], self.combine.nothing())[0], |all, i| {
                     self.combine.of(all, contribution(i, x))
                 })
             });
@@ -165,9 +165,9 @@ impl<T: Real> FarField<T> {
         self.nodes[self.of[place]].near.clone()
     }
 
-    /// Returns the contribution of all other intervals at an x in that place.
-    pub fn far(&self, place: usize, x: T) -> T {
-        self.nodes[self.of[place]].value(x, self.combine.nothing())
+    /// Returns the contribution of all other intervals at each x in that place.
+    pub fn far<const W: usize>(&self, place: usize, x: [T; W]) -> [T; W] {
+        self.nodes[self.of[place]].values(x, self.combine.nothing())
     }
 }
 
@@ -223,7 +223,7 @@ mod tests {
                         Combine::Sum => (0..on.len()).map(|i| contribution(i, x).abs()).sum(),
                         Combine::Product => of(0..on.len()),
                     };
-                    let found = combine.of(of(near.clone()), field.far(k, x));
+                    let found = combine.of(of(near.clone()), field.far(k, [x])[0]);
                     let error = (found - of(0..on.len())).abs() / scale;
                     // In a narrow gap the rounding of the nodes counts.
                     let rounding = f64::EPSILON * x.abs() / gap.half_width();

@@ -199,7 +199,7 @@ impl<T: Real> ExteriorFields<T> {
         };
         let place = self.places.partition_point(|place| place.right < x);
         match self.places.get(place) {
-            Some(_) => sum(&self.each[far.near(place)]) + far.far(place, x),
+            Some(_) => sum(&self.each[far.near(place)]) + far.far(place, [x])[0],
             None => sum(&self.each),
         }
     }

@@ -30,7 +30,7 @@ impl<T: Real> Several<T> {
         }
         for (i, on) in contacts.iter().enumerate() {
             for side in Side::BOTH {
-                let (x, weight) = (on[side], self.weight.on_contact(i, on[side]));
+                let (x, weight) = (on[side], self.weight.on_contact(i, [on[side]])[0]);
                 let size = self.at_end(&system.far, i, side).abs();
                 system.limits.push(x);
                 system.at_ends.push(size * weight.signum());
@@ -45,7 +45,7 @@ impl<T: Real> Several<T> {
 
     /// Returns V at a place in a gap; near contact `near`, given the distance from it.
     fn in_gap(&self, far: &FarField<T>, k: usize, x: T, near: Option<(usize, T)>) -> T {
-        self.outside(far.near(k), x, near) + far.far(k, x)
+        self.outside(far.near(k), x, near) + far.far(k, [x])[0]
     }
 
     /// Returns V at a limit, without its infinite part.
@@ -57,7 +57,7 @@ impl<T: Real> Several<T> {
         let Some(k) = gap else { return self.at_outer_end(side) };
         let (part, others) = (&self.parts[contact], far.near(k).filter(|&i| i != contact));
         let x = part.on[side];
-        part.at_end(side) + self.outside(others, x, None) + far.far(k, x)
+        part.at_end(side) + self.outside(others, x, None) + far.far(k, [x])[0]
     }
 
     /// Adds the poles of the step, the balance conditions and the load condition.

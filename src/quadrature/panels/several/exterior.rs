@@ -59,6 +59,6 @@ impl<T: Real> Several<T> {
     pub fn strength_by_limit(&self, system: &System<T>, contact: usize, side: Side) -> T {
         let limit = self.parts[contact].on[side];
         let value = system.at_ends[2 * contact + usize::from(side == Side::Right)];
-        (value / (T::pi() * T::pi() * self.weight.on_contact(contact, limit))).abs()
+        (value / (T::pi() * T::pi() * self.weight.on_contact(contact, [limit])[0])).abs()
     }
 }

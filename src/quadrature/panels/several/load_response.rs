@@ -58,6 +58,6 @@ impl<T: Real> LoadResponse<T> {
     pub fn pressure(&self, contact: usize, x: T) -> T {
         let sum = self.terms.iter().fold(T::zero(), |sum, &[e, share]| sum + share / (x - e));
         let root = self.contacts()[contact].chebyshev_weight(x);
-        root / self.weight.on_contact(contact, x) * sum
+        root / self.weight.on_contact(contact, [x])[0] * sum
     }
 }

@@ -39,6 +39,9 @@ const TRIAL_TOLERANCE: f64 = 2e-5;
 /// to rounding: its error there is u¹⁶.
 const FAR_DISTANCE: f64 = 4.0;
 
+/// Number of nodes at which the weight is computed together.
+const W: usize = 4;
+
 #[derive(Clone)]
 pub(super) struct OneOfSeveral<T> {
     pub on: Interval<T>,
@@ -50,8 +53,6 @@ pub(super) struct OneOfSeveral<T> {
     panels: Vec<Panel<T>>,
     /// Spans still to be resolved, each with the number of its halvings.
     waiting: Vec<([T; 2], usize)>,
-    /// Bound on |H|.
-    size: T,
     transform: HilbertTransform<T>,
     /// H as a cosine series: all of it on a single panel, or the terms that count from afar.
     series: Series<T>,
@@ -71,7 +72,6 @@ impl<T: Real> OneOfSeveral<T> {
             height: None,
             panels: Vec::new(),
             waiting: Vec::new(),
-            size: zero,
             transform: HilbertTransform::new(),
             series: ([zero; MAX_SIZE], 0),
             far: NearFarSum::new(),
@@ -158,14 +158,11 @@ impl<T: Real> OneOfSeveral<T> {
 
     /// Multiplies the slope by a weight, and prepares for the conditions on the limits; on
     /// one panel if that is almost enough, for a trial.
-    pub fn set(&mut self, weight: impl Fn(T) -> T, is_trial: bool) {
+    pub fn set(&mut self, weight: impl Fn([T; W]) -> [T; W], is_trial: bool) {
         let (on, tolerance) = (self.on, self.panel_set.tolerance);
-        let saved = within(&self.panel_set.panels, on).len();
-        if !(is_trial && saved >= MANY && self.on_one_panel(&weight)) {
+        if !(is_trial && self.panel_set.panels.len() >= MANY && self.on_one_panel(&weight)) {
             self.panels.clear();
-            self.size = T::zero();
             for (panel, x) in spans(within(&self.panel_set.panels, on), on) {
-                self.waiting.clear();
                 self.waiting.push((x, 0));
                 // The weight bends over the whole of a contact.
                 let more = if x[1] - x[0] > on.half_width() { 4 } else { 0 };
@@ -178,13 +175,10 @@ impl<T: Real> OneOfSeveral<T> {
                     let middle = T::of(0.5) * (from + to);
                     let may = halved < MAX_HALVES && self.panels.len() < MAX_PANELS;
                     if !resolved && may && middle > from && middle < to {
-                        self.waiting.push(([middle, to], halved + 1));
-                        self.waiting.push(([from, middle], halved + 1));
+                        self.waiting
+                            .extend([[middle, to], [from, middle]].map(|x| (x, halved + 1)));
                         continue;
                     }
-                    let size =
-                        product.coefficients().iter().fold(T::zero(), |sum, a| sum + a.abs());
-                    self.size = self.size.max(size);
                     self.panels.push(product);
                 }
             }
@@ -198,7 +192,7 @@ impl<T: Real> OneOfSeveral<T> {
     }
 
     /// Multiplies the slope by a weight on one panel; tells whether that is almost enough.
-    fn on_one_panel(&mut self, weight: &impl Fn(T) -> T) -> bool {
+    fn on_one_panel(&mut self, weight: &impl Fn([T; W]) -> [T; W]) -> bool {
         let (x, zero) = ([self.on.left, self.on.right], T::zero());
         let slope = |x| self.panel_set.slope(x).unwrap_or(zero);
         let tolerance = T::of(TRIAL_TOLERANCE);
@@ -211,7 +205,10 @@ impl<T: Real> OneOfSeveral<T> {
     /// Prepares for pressures in the contact.
     pub fn press(&mut self) {
         let over = Some(&self.series).filter(|_| self.panels.len() == 1);
-        self.transform.set(&self.panels, over, self.on, self.size, self.panel_set.tolerance);
+        // A bound on |H|.
+        let bound = |panel: &Panel<T>| panel.series.iter().fold(T::zero(), |sum, a| sum + a.abs());
+        let size = self.panels.iter().map(bound).fold(T::zero(), T::max);
+        self.transform.set(&self.panels, over, self.on, size, self.panel_set.tolerance);
     }
 
     /// Returns `V(x) = ∫ H/((s - x) sqrt((s - α)(β - s))) ds` at a place outside this contact, at a
@@ -247,11 +244,8 @@ impl<T: Real> OneOfSeveral<T> {
     /// Returns V at one end of the contact, without its infinite part.
     pub fn at_end(&self, side: Side) -> T {
         let Some(derivatives) = self.moments.derivatives else { return T::zero() };
-        T::pi()
-            * match side {
-                Side::Left => derivatives.by_0 - derivatives.by_1,
-                Side::Right => derivatives.by_0 + derivatives.by_1,
-            }
+        let sign = if side == Side::Left { -T::one() } else { T::one() };
+        T::pi() * (derivatives.by_0 + sign * derivatives.by_1)
     }
 
     /// Returns `sqrt((x - α)(β - x)) V(x)` at the first `count` points, in the contact, and the
@@ -273,7 +267,7 @@ impl<T: Real> OneOfSeveral<T> {
 fn multiply<T: Real>(
     x: [T; 2],
     (slope, error, least): (&impl Fn(T) -> T, T, usize),
-    weight: &impl Fn(T) -> T,
+    weight: &impl Fn([T; W]) -> [T; W],
     tolerance: T,
 ) -> (Panel<T>, bool, bool) {
     let half = T::of(0.5);
@@ -282,18 +276,20 @@ fn multiply<T: Real>(
         let table = Table::of(n);
         let (reach, mut largest) = (half * (x[1] - x[0]), T::zero());
         let mut values = [T::zero(); MAX_SIZE];
-        for (value, &z) in values[..n].iter_mut().zip(&table.z) {
+        let chunks = values[..n].as_chunks_mut::<W>().0;
+        for (values, &z) in chunks.iter_mut().zip(table.z.as_chunks().0) {
             // From the nearer end, where the weight may be steep.
-            let place =
-                if z < 0.0 { x[0] + reach * T::of(1.0 + z) } else { x[1] - reach * T::of(1.0 - z) };
-            let factor = weight(place);
-            largest = largest.max(factor.abs());
-            *value = factor * slope(place);
+            let places = z.map(|z| match z {
+                z if z < 0.0 => x[0] + reach * T::of(1.0 + z),
+                z => x[1] - reach * T::of(1.0 - z),
+            });
+            let factors = weight(places);
+            largest = factors.iter().fold(largest, |largest, factor| largest.max(factor.abs()));
+            *values = std::array::from_fn(|i| factors[i] * slope(places[i]));
         }
         by_size!(n, N => {
-            let mut row = [T::zero(); N];
-            row.copy_from_slice(&values[..N]);
-            product.series[..N].copy_from_slice(&table.coefficients(&row));
+            let row = &values.as_chunks::<N>().0[0];
+            product.series[..N].copy_from_slice(&table.coefficients(row));
         });
         product.count(n);
         let size = |terms: &[T], part| {

@@ -31,8 +31,8 @@ impl<T: Real> Several<T> {
             for (lane, pressure) in out.iter_mut().enumerate() {
                 let x = lanes[lane];
                 let near = self.far.near(i).filter(|&k| k != i);
-                let others = self.outside(near, x, None) + self.far.far(i, x) + self.constant;
-                let weight = self.weight.on_contact(i, x);
+                let others = self.outside(near, x, None) + self.far.far(i, [x])[0] + self.constant;
+                let weight = self.weight.on_contact(i, [x])[0];
                 *pressure = (own[lane] + root[lane] * others) / (T::pi() * T::pi() * weight);
             }
         }
@@ -51,7 +51,7 @@ impl<T: Real> Several<T> {
         });
         let root = part.on.chebyshev_weight(x);
         let of_edges = sixth * T::pi() * part.on.half_width() * part.moments.error / root;
-        let scale = T::pi() * T::pi() * self.weight.on_contact(i, x).abs();
+        let scale = T::pi() * T::pi() * self.weight.on_contact(i, [x])[0].abs();
         (part.error(x) + of_edges + T::pi() * root * by_others) / scale
     }
 

@@ -80,10 +80,10 @@ impl<T: Real> Weight<T> {
         self.corner_distance(Side::Left, x) * self.corner_distance(Side::Right, x)
     }
 
-    /// Returns `w p sqrt((x - α_i)(β_i - x))` at a place in contact i.
-    pub fn on_contact(&self, i: usize, x: T) -> T {
-        let square = self.square(i, self.far.near(2 * i), x) * self.far.far(2 * i, x);
-        self.sign_on(i) * square.sqrt() * self.corner_factor(x)
+    /// Returns `w p sqrt((x - α_i)(β_i - x))` at places in contact i.
+    pub fn on_contact<const W: usize>(&self, i: usize, x: [T; W]) -> [T; W] {
+        let squares = self.squares([i, i], self.far.near(2 * i), self.far.far(2 * i, x), x);
+        std::array::from_fn(|j| self.sign_on(i) * squares[j].sqrt() * self.corner_factor(x[j]))
     }
 
     /// Returns the sign of `w p` on a contact.
@@ -92,12 +92,22 @@ impl<T: Real> Weight<T> {
         Self::sign(self.on.len() - 1 - i + self.zeros.len().saturating_sub(i))
     }
 
-    /// Returns the square of the factor by some contacts but contact i.
-    fn square(&self, i: usize, contacts: Range<usize>, x: T) -> T {
-        contacts.filter(|&k| k != i).fold(T::one(), |square, k| {
-            let [on, zero] = self.factors(k, k < i, x);
-            square * (zero / on)
-        })
+    /// Multiplies by the squares of the factors at places x by some contacts, but those from the
+    /// first to the last beside x.
+    fn squares<const W: usize>(
+        &self,
+        [first, last]: [usize; 2],
+        contacts: Range<usize>,
+        mut squares: [T; W],
+        x: [T; W],
+    ) -> [T; W] {
+        for k in contacts.filter(|k| !(first..=last).contains(k)) {
+            for (square, &x) in squares.iter_mut().zip(&x) {
+                let [on, zero] = self.factors(k, k < first, x);
+                *square *= zero / on;
+            }
+        }
+        squares
     }
 
     /// Returns `(x - α_k)(x - β_k)`, and the square of the distance to the zero of p between
@@ -113,7 +123,7 @@ impl<T: Real> Weight<T> {
     pub fn beside_corner(&self, side: Side) -> T {
         let i = self.outermost(side);
         let corner = self.on[i][side];
-        let square = self.square(i, 0..self.on.len(), corner);
+        let [square] = self.squares([i, i], 0..self.on.len(), [T::one()], [corner]);
         self.sign_on(i) * square.sqrt() * self.corner_distance(side.other(), corner)
     }
 
@@ -121,11 +131,8 @@ impl<T: Real> Weight<T> {
     /// both ends of the gap.
     pub fn in_gap(&self, k: usize, x: T, [from_left, to_right]: [T; 2]) -> T {
         let [left, right] = [self.on[k], self.on[k + 1]];
-        let others = self.far.near(2 * k + 1).filter(|&m| m != k && m != k + 1);
-        let square = others.fold(self.far.far(2 * k + 1, x), |square, m| {
-            let [on, zero] = self.factors(m, m < k, x);
-            square * (zero / on)
-        });
+        let (others, far) = (self.far.near(2 * k + 1), self.far.far(2 * k + 1, [x]));
+        let [square] = self.squares([k, k + 1], others, far, [x]);
         let near = (from_left * (x - left.left)).sqrt() * (to_right * (right.right - x)).sqrt();
         let flips = self.on.len() - 1 - k + self.zeros.len().saturating_sub(k + 1);
         Self::sign(flips) * near / (square.sqrt() * self.corner_factor(x))
@@ -142,7 +149,8 @@ impl<T: Real> Weight<T> {
         // A corner on this side is at the distance of the limit.
         let factor = if self.corners[side] { outward } else { T::one() };
         let factor = factor * self.corner_distance(side.other(), x);
-        Self::sign(flips) * size / (self.square(own, 0..self.on.len(), x).sqrt() * factor)
+        let [square] = self.squares([own, own], 0..self.on.len(), [T::one()], [x]);
+        Self::sign(flips) * size / (square.sqrt() * factor)
     }
 
     /// Returns the sign of a root after a number of branch points.
