@@ -77,8 +77,8 @@ impl<T: Real> FarField<T> {
     }
 
     /// Takes intervals and the places from which they will be seen, both from left to right, and
-    /// the contribution of an interval, by its number, at a far x. Half the digits of f64 suffice
-    /// if it is coarse.
+    /// the contribution of an interval, by its number, at a far x. For a coarse field half the
+    /// digits of f64 suffice.
     pub fn set(
         &mut self,
         intervals: &[Interval<T>],

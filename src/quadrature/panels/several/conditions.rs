@@ -8,7 +8,8 @@ use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{Ends, Interval, Real, Side};
 
 /// Longest span in a gap for one Gauss rule, in the variable t of `x = β + 2 L sinh²(t/2)`: the
-/// next singularity lies at least a third as far beyond its end.
+/// next singularity lies at least a third as far beyond its end. Sixteen nodes leave an error of
+/// 3⁻³², and the eight of a trial 3⁻¹⁶.
 const MAX_GAUSS_SPAN: f64 = 2.0;
 
 /// Limit on the number of such spans: more than any gap and contact of finite widths have.

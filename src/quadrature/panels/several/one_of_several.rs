@@ -156,8 +156,8 @@ impl<T: Real> OneOfSeveral<T> {
         height.abs() + self.height.map_or(T::zero(), |[_, height]| height.abs())
     }
 
-    /// Multiplies the slope by a weight, and prepares for the conditions on the limits; on
-    /// one panel if that is almost enough, for a trial.
+    /// Multiplies the slope by a weight, and prepares for the conditions on the limits. For a trial
+    /// one panel is taken if it is almost enough.
     pub fn set(&mut self, weight: impl Fn([T; W]) -> [T; W], is_trial: bool) {
         let (on, tolerance) = (self.on, self.panel_set.tolerance);
         if !(is_trial && self.panel_set.panels.len() >= MANY && self.on_one_panel(&weight)) {
