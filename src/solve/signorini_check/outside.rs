@@ -290,8 +290,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         rate: &mut [T; 2],
         open: &mut Vec<[T; 2]>,
     ) -> Option<(T, Verdict)> {
-        let (hidden, potential) = (doubt + from.hidden, fields.potential(x));
-        let judged = |height: T| self.verdict(from, [height, hidden], potential);
+        let hidden = doubt + from.hidden;
+        let judged = |height: T| self.verdict(fields, from, [x, height, hidden]);
         let Some(ends) = between else {
             let verdict = judged(height);
             // Only the height at the limit is uncertain.
@@ -310,7 +310,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let x = self.lowest_between(fields, look, on);
         let verdict = if !from.is_near(x) {
             let height = self.gap.turned(x, look.height(x));
-            self.verdict(from, [height, hidden], fields.potential(x))
+            self.verdict(fields, from, [x, height, hidden])
         } else {
             // A span this vague does not show its lowest place.
             let vague = T::of(MAX_NEAR_UNCERTAINTY) * self.found.load.abs() / self.kappa;
@@ -396,18 +396,19 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let is_limit = [next > 0, next < contacts.len()];
         let near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
         let taken = fields.potential(edge);
-        let doubt = fields.doubt_in(room) / self.kappa;
-        Beside { next, edge, room, near, height, hidden, taken, doubt }
+        Beside { next, edge, room, near, height, hidden, taken }
     }
 
-    /// Judges an unloaded height, given its uncertainty and the potential there.
-    fn verdict(&self, from: &Beside<T>, [height, hidden]: [T; 2], potential: T) -> Verdict {
-        let rise = height - from.height;
-        let gap = rise - (potential - from.taken) / self.kappa;
-        let (allowed, doubt) = (self.allowed(height, from.height), from.doubt);
+    /// Judges an unloaded height, given its place and its uncertainty.
+    fn verdict(&self, fields: &ExteriorFields<T>, from: &Beside<T>, at: [T; 3]) -> Verdict {
+        let ([x, height, hidden], allowed) = (at, self.allowed(at[1], from.height));
+        let gap = height - from.height - (fields.potential(x) - from.taken) / self.kappa;
         if gap - hidden >= -allowed {
-            Verdict::Apart
-        } else if gap - hidden >= -(allowed + doubt) {
+            return Verdict::Apart;
+        }
+        // The series of the pressures leave this uncertain.
+        let doubt = fields.doubt_in(from.room) / self.kappa;
+        if gap - hidden >= -(allowed + doubt) {
             Verdict::Unresolved
         } else if gap + hidden >= -(allowed + doubt) {
             Verdict::Hidden
@@ -449,7 +450,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
         let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
         let allowed = self.allowed(height, at_edge) + T::of(8.0) * (rise - due).abs();
-        let is_open = gap >= -(allowed + from.doubt) || !is_sound;
+        let doubt = fields.doubt_in(from.room) / self.kappa;
+        let is_open = gap >= -(allowed + doubt) || !is_sound;
         Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
     }
 }
@@ -469,8 +471,6 @@ struct Beside<T> {
     height: T,
     hidden: T,
     taken: T,
-    /// Uncertainty of the gap due to the series of the pressures.
-    doubt: T,
 }
 
 impl<T: Real> Beside<T> {
