@@ -33,15 +33,12 @@ const MAX_CUT: i32 = 9;
 /// of a trial.
 const LAST_TRIAL: f64 = 0.02;
 
-/// Largest number of trials: next to a contact a billionth of a gap they may never settle.
-const MAX_TRIALS: usize = 12;
-
 /// Number of conditions from one to the next whose uncertainties are taken together: the errors of
 /// the limits are then a few per cent smaller than from each by itself.
 const APART: usize = 16;
 
-/// Number of such steps after which a width goes together with another that is taken not to exist:
-/// it is 0.3⁶ of what it was.
+/// Number of such steps after which trials end, and after which a width goes together with another
+/// that is taken not to exist: it is 0.3⁶ of what it was.
 const MAX_CUT_STEPS: i32 = 3;
 
 /// Unknown besides the limits.
@@ -159,8 +156,9 @@ impl<T: Real> NewtonSeveral<T> {
         self.cut.clear();
         self.cut.resize(2 * self.on.len() - 1, 0);
         let mut turned = conditions.gap.tilted(self.tilt);
-        for number in 0..MAX_STEPS {
-            self.is_trial &= number < MAX_TRIALS;
+        for _ in 0..MAX_STEPS {
+            // Next to a contact a billionth of a gap, trials may never settle.
+            self.is_trial &= self.cut.iter().all(|&times| times < MAX_CUT_STEPS);
             if let Err(stop) = self.assemble(several, &turned, conditions)? {
                 return Ok(Err(stop));
             }
