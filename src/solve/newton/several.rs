@@ -33,6 +33,10 @@ const MAX_CUT: i32 = 9;
 /// of a trial.
 const LAST_TRIAL: f64 = 0.02;
 
+/// Least number of contacts for a trial: with few it saves little, and a tiny contact that was just
+/// born needs all digits.
+const LEAST_TRIED: usize = 8;
+
 /// Number of conditions from one to the next whose uncertainties are taken together: the errors of
 /// the limits are then a few per cent smaller than from each by itself.
 const APART: usize = 16;
@@ -152,7 +156,8 @@ impl<T: Real> NewtonSeveral<T> {
         if let Some(side) = conditions.end() {
             self.held[side] = true;
         }
-        (self.progress, self.passed, self.is_trial) = (Progress::new(), None, true);
+        (self.progress, self.passed) = (Progress::new(), None);
+        self.is_trial = self.on.len() >= LEAST_TRIED;
         self.cut.clear();
         self.cut.resize(2 * self.on.len() - 1, 0);
         let mut turned = conditions.gap.tilted(self.tilt);
