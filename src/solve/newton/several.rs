@@ -7,9 +7,9 @@
 //! closes, or the contact does not exist; and a gap closes that the heights of the bodies no longer
 //! resolve. The caller starts again without all of these.
 //!
-//! The first steps are trials: contacts of many panels are taken as one panel each, and half the
-//! digits suffice for gaps and for contacts far from each other. A trial leaves limits off by some
-//! 1e-4 of a width; then two steps with all digits suffice.
+//! With many contacts the first steps are trials: contacts of many panels are taken as one panel
+//! each, and half the digits suffice for gaps and for contacts far from each other. A trial leaves
+//! limits off by some 1e-4 of a width; then two steps with all digits suffice.
 
 mod widths;
 
