@@ -36,6 +36,10 @@ const HALVES: usize = 52;
 /// the least one found: κ/π times its slope.
 const FAINT: f64 = 0.02;
 
+/// Largest fall of the pressure to a minimum between the places evaluated, as a multiple of that of
+/// the parabola through three of them: twice its fall is common, four times has been seen.
+const MOST_BELOW: f64 = 8.0;
+
 /// Largest number of steps to a minimum of the pressure between the places evaluated.
 const MAX_STEPS: usize = 4;
 
@@ -200,7 +204,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     let vertex = x[1] - T::of(0.5) * slope / bend;
                     let below = p[1] - T::of(0.25) * slope * slope / bend;
                     // A minimum far above zero needs no closer look.
-                    let is_near = below < T::of(0.5) * p[1];
+                    let is_near = p[1] < T::of(MOST_BELOW) * (p[1] - below);
                     if !(is_near && vertex > x[0] && vertex < x[2]) || vertex == x[1] {
                         break;
                     }

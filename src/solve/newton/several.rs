@@ -41,8 +41,8 @@ const LEAST_TRIED: usize = 8;
 /// the limits are then a few per cent smaller than from each by itself.
 const APART: usize = 16;
 
-/// Number of such steps after which trials end, and after which a width goes together with another
-/// that is taken not to exist: it is 0.3⁶ of what it was.
+/// Number of such steps after which a width goes together with another that is taken not to exist:
+/// it is 0.3⁶ of what it was.
 const MAX_CUT_STEPS: i32 = 3;
 
 /// Unknown besides the limits.
@@ -162,8 +162,6 @@ impl<T: Real> NewtonSeveral<T> {
         self.cut.resize(2 * self.on.len() - 1, 0);
         let mut turned = conditions.gap.tilted(self.tilt);
         for _ in 0..MAX_STEPS {
-            // Next to a contact a billionth of a gap, trials may never settle.
-            self.is_trial &= self.cut.iter().all(|&times| times < MAX_CUT_STEPS);
             if let Err(stop) = self.assemble(several, &turned, conditions)? {
                 return Ok(Err(stop));
             }
