@@ -55,6 +55,8 @@ struct Search<'s, 'w, 'b, T: Real> {
     cells: usize,
     /// Places where gaps have closed.
     closed: Vec<Interval<T>>,
+    /// Single contacts in which a feature was lost to the panels.
+    lost: Vec<Interval<T>>,
     /// End of the bodies that contacts reach with no corner to hold them.
     runs_out: Option<Side>,
     /// True if the load that the bodies bear has been sought.
@@ -69,9 +71,9 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         conditions: Conditions<T>,
         work: &'s mut Work<'w, T>,
     ) -> Self {
-        let (cells, closed, has_run_out) = (FIRST_CELLS, Vec::new(), false);
+        let (cells, has_run_out, [closed, lost]) = (FIRST_CELLS, false, [Vec::new(), Vec::new()]);
         let (runs_out, end, samples) = (None, None, work.integrator.cost().samples);
-        Self { contact, conditions, work, samples, cells, closed, runs_out, has_run_out, end }
+        Self { contact, conditions, work, samples, cells, closed, lost, runs_out, has_run_out, end }
     }
 
     fn find(&mut self) -> Result<ContactState<T>, ContactError<T>> {

@@ -356,11 +356,11 @@ impl<T: Real> PanelSet<T> {
                     self.try_out(gap, &mut trial)?;
                     continue;
                 }
-                // A much larger error is not noise: a half with fewer nodes was given up earlier.
+                // A much larger error is not noise: a half with fewer nodes was given up earlier,
+                // or the whole has missed a feature.
                 let as_much = |half: &Candidate<T>| {
                     let ratio = half.panel.error / trial.panel.error;
-                    let fewer = half.panel.n < trial.panel.n;
-                    let by_value = ratio >= T::of(0.8) && (!fewer || ratio <= T::of(16.0));
+                    let by_value = ratio >= T::of(0.8) && ratio <= T::of(64.0);
                     let by_derivative = half.derivatives >= T::of(0.8) * trial.derivatives;
                     let derived = half.derivatives > T::zero();
                     half.split && !half.hides && if derived { by_derivative } else { by_value }
@@ -388,10 +388,11 @@ impl<T: Real> PanelSet<T> {
                     && (is_long(trial.panel.x, self.noise) || is_long(before.x, self.noise));
                 if finer && splits < MAX_SPLITS && !self.coarse {
                     self.panels.pop();
-                    let again =
-                        |panel, trial: &Candidate<T>| Candidate { panel, split: true, ..*trial };
-                    self.waiting.push(again(trial.panel, &trial));
-                    trial = again(before, &trial);
+                    // The longer one has been halved less often.
+                    let longer: f64 = (before.half() / trial.panel.half()).to_subset_unchecked();
+                    let level = trial.level.saturating_sub(longer.max(1.0).log2() as usize);
+                    self.waiting.push(Candidate { split: true, ..trial });
+                    trial = Candidate { panel: before, level, split: true, ..trial };
                     continue;
                 }
             }

@@ -8,7 +8,8 @@ use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, SolveError};
 
 impl<T: Real> Search<'_, '_, '_, T> {
-    /// Looks for narrow features in the contacts found; tells whether the panels missed one.
+    /// Looks for narrow features in the contacts found; tells whether the panels missed one. Fails
+    /// if a search for one contact leads back to where they did.
     pub(super) fn misses(&mut self, found: &ContactState<T>) -> Result<bool, ContactError<T>> {
         let contact = self.contact;
         if contact.single_interval || contact.gap.is_convex() {
@@ -20,7 +21,17 @@ impl<T: Real> Search<'_, '_, '_, T> {
         // Under a lighter load the samples at hand need no more probes.
         let is_known = self.samples == self.work.integrator.cost().samples
             && self.work.workspace.survey_of(gap).is_some_and(|look| look.is_resolved(gap, load));
-        Ok(!is_known && panels::probe(self.work.integrator, gap, found.interval)?)
+        if is_known || !panels::probe(self.work.integrator, gap, found.interval)? {
+            return Ok(false);
+        }
+        let is_one = panels::several(self.work.integrator).is_none();
+        // No single contact balances with the feature, and the search has begun anew without it.
+        if is_one && self.lost.iter().any(|on| on.is_same(&found.interval)) {
+            let (half_width, near) = (found.interval.half_width(), found.interval.centre());
+            return Err(SolveError::NoEquilibrium { half_width, near }.into());
+        }
+        self.lost.push(found.interval);
+        Ok(true)
     }
 
     /// Returns the fault of a solution, if it has any.

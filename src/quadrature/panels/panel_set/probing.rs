@@ -29,34 +29,36 @@ const MAX_PARTS: usize = 1 << 10;
 
 impl<T: Real> PanelSet<T> {
     /// Samples slopes between the nodes of the panels of a contact where a narrow feature has room,
-    /// and samples anew the panels that miss one. Tells whether any did.
+    /// and samples anew the panels that miss one, until none does. Tells whether any did.
     ///
     /// # Errors
     /// Those of sampling the bodies.
     pub fn probe(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<bool, ContactError<T>> {
         let apart = gap.spacing(on.half_width(), SPACING);
-        let (tilt, before) = (self.tilt, self.cost);
+        let (tilt, mut is_missed) = (self.tilt, false);
         self.turn(T::zero());
-        let mut missed = Vec::new();
-        for i in 0..self.panels.len() {
-            let panel = self.panels[i];
-            let is_touched = panel.x[0] < on.right && panel.x[1] > on.left;
-            if is_touched && panel.apart > apart {
-                match self.missed_between(gap, &panel, on, apart)? {
-                    Some(x) => missed.push((i, x)),
-                    None => self.panels[i].apart = apart,
+        loop {
+            let (before, mut missed) = (self.cost, Vec::new());
+            for i in 0..self.panels.len() {
+                let panel = self.panels[i];
+                if panel.x[0] < on.right && panel.x[1] > on.left && panel.apart > apart {
+                    missed.extend(self.missed_between(gap, &panel, on, apart)?.map(|x| (i, x)));
+                    self.panels[i].apart = apart;
                 }
             }
+            // Probes are checks, and are counted with the heights.
+            self.cost.heights += self.cost.evaluations - before.evaluations;
+            (self.cost.samples, self.cost.evaluations) = (before.samples, before.evaluations);
+            if missed.is_empty() {
+                self.turn(tilt);
+                return Ok(is_missed);
+            }
+            is_missed = true;
+            // From the right, so that the numbers of panels on the left stay.
+            for &(i, x) in missed.iter().rev() {
+                self.cut(gap, i, x, apart)?;
+            }
         }
-        // Probes are checks, and are counted with the heights.
-        self.cost.heights += self.cost.evaluations - before.evaluations;
-        (self.cost.samples, self.cost.evaluations) = (before.samples, before.evaluations);
-        // From the right, so that the numbers of panels on the left stay.
-        for &(i, x) in missed.iter().rev() {
-            self.cut(gap, i, x, apart)?;
-        }
-        self.turn(tilt);
-        Ok(!missed.is_empty())
     }
 
     /// Samples the span of a panel anew, by panels that end at and around `x`: nodes are closest
@@ -94,7 +96,7 @@ impl<T: Real> PanelSet<T> {
         for part in 1..parts {
             gap.check_budget(self.spent + self.cost, 1, 0, on)?;
             let missed =
-                by_size!(panel.n, N => self.missed_at::<N>(gap, panel, on, apart, [part, parts]))?;
+                by_size!(panel.n, N => self.missed_at::<N>(gap, panel, apart, [part, parts]))?;
             if missed.is_some() {
                 return Ok(missed);
             }
@@ -102,22 +104,22 @@ impl<T: Real> PanelSet<T> {
         Ok(None)
     }
 
-    /// Probes each interval between nodes, at `part` of `parts` of the way, for the place where the
-    /// panel is furthest off.
+    /// Probes each interval between nodes, at `part` of `parts` of the way, and one of the ends, for
+    /// the place where the panel is furthest off, in the contact or next to it.
     fn missed_at<const N: usize>(
         &mut self,
         gap: &Gap<'_, T>,
         panel: &Panel<T>,
-        on: Interval<T>,
         apart: T,
         [part, parts]: [usize; 2],
     ) -> Result<Option<T>, ContactError<T>> {
         let (share, reach, table) = (part as f64 / parts as f64, panel.half(), Table::of(N));
+        // One point between two nodes is as close as the end is without any.
+        let least = if parts > 2 { 0.0 } else { 0.25 };
         let offsets: [T; N] = std::array::from_fn(|i| {
-            // The end is only half as far from the last node.
-            let on = if i + 1 < N { share } else { 0.5 * share };
-            let angle = std::f64::consts::PI * (i as f64 + 0.5 + on) / N as f64;
-            reach * T::of(-angle.cos())
+            // From each node to the next, and from both outermost nodes outward.
+            let at = (i as f64 + (0.5 + share).fract()).max(least);
+            reach * T::of(-(std::f64::consts::PI * at / N as f64).cos())
         });
         let centre = T::of(0.5) * panel.x[0] + T::of(0.5) * panel.x[1];
         let places = offsets.map(|offset| centre + offset);
@@ -130,7 +132,8 @@ impl<T: Real> PanelSet<T> {
         let allowed = T::of(MAX_MISMATCH) * panel.error.max(least) + T::of(2.0) * panel.noise;
         // A sample inside a feature disturbs the others of its batch, but less.
         let off = |i: usize| (panel.value(places[i]) - (upper[i] - lower[i])).abs();
-        let missed = (0..N).filter(|&i| on.contains(places[i]) && off(i) > allowed);
+        // Also outside the contact: a limit may leave little of a feature inside.
+        let missed = (0..N).filter(|&i| off(i) > allowed);
         let worst = missed.reduce(|one, other| if off(other) > off(one) { other } else { one });
         Ok(worst.map(|i| places[i]))
     }
