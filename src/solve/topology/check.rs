@@ -27,8 +27,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let is_one = panels::several(self.work.integrator).is_none();
         // No single contact balances with the feature, and the search has begun anew without it.
         if is_one && self.lost.iter().any(|on| on.is_same(&found.interval)) {
-            let (half_width, near) = (found.interval.half_width(), found.interval.centre());
-            return Err(SolveError::NoEquilibrium { half_width, near }.into());
+            return Err(self.no_balance());
         }
         self.lost.push(found.interval);
         Ok(true)
