@@ -104,8 +104,8 @@ impl<T: Real> PanelSet<T> {
         Ok(None)
     }
 
-    /// Probes each interval between nodes, at `part` of `parts` of the way, and one of the ends, for
-    /// the place where the panel is furthest off, in the contact or next to it.
+    /// Probes each interval between nodes, at `part` of `parts` of the way, and an end, for the
+    /// place where the panel is furthest off.
     fn missed_at<const N: usize>(
         &mut self,
         gap: &Gap<'_, T>,
