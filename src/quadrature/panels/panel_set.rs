@@ -12,9 +12,9 @@ use super::panel::Panel;
 use crate::gap::{Cost, Gap, Guides, SampleCache, Sampler};
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, size_for};
 use crate::profile::Noise;
-use crate::real::same;
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, Interval, Real, Side, real::same};
 use candidate::{Candidate, FALL_OF_A_ROOT, LEVELS_OF_A_WAVE, MAX_LEVELS, is_long};
+use num_traits::ToPrimitive;
 use sampling::SampledBody;
 
 /// Fewest nodes of a panel after the first estimate. On a span a little wider than a contact, the
@@ -390,7 +390,7 @@ impl<T: Real> PanelSet<T> {
                     self.panels.pop();
                     // The longer one has been halved less often.
                     let longer: f64 = (before.half() / trial.panel.half()).to_subset_unchecked();
-                    let level = trial.level.saturating_sub(longer.max(1.0).log2() as usize);
+                    let level = trial.level.saturating_sub(longer.log2().to_usize().unwrap_or(0));
                     self.waiting.push(Candidate { split: true, ..trial });
                     trial = Candidate { panel: before, level, split: true, ..trial };
                     continue;

@@ -5,7 +5,7 @@ use crate::common::Shares;
 use linecontact::profile::Spline;
 use linecontact::{
     Contact, ContactError, Control, Flat, Material, PlaneState, Reference, References, Solution,
-    Solver, Start,
+    Solver,
 };
 use std::f64::consts::PI;
 
