@@ -115,10 +115,10 @@ impl<T: Real> PanelSet<T> {
     ) -> Result<Option<T>, ContactError<T>> {
         let (share, reach, table) = (part as f64 / parts as f64, panel.half(), Table::of(N));
         // One point between two nodes is as close as the end is without any.
-        let least = if parts > 2 { 0.0 } else { 0.25 };
+        let most = N as f64 - if parts > 2 { 0.0 } else { 0.25 };
         let offsets: [T; N] = std::array::from_fn(|i| {
             // From each node to the next, and from both outermost nodes outward.
-            let at = (i as f64 + (0.5 + share).fract()).max(least);
+            let at = (i as f64 + 1.0 - (1.5 - share).fract()).min(most);
             reach * T::of(-(std::f64::consts::PI * at / N as f64).cos())
         });
         let centre = T::of(0.5) * panel.x[0] + T::of(0.5) * panel.x[1];
