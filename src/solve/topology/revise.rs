@@ -27,7 +27,7 @@ const MAX_UNCERTAINTY: f64 = 2e-4;
 /// Square of the relative change of the load, times the number of contacts, up to which the last
 /// contacts are the start: beyond, contacts that are born and vanish take more attempts than it
 /// saves (measured with 2 to 300 contacts).
-const MAX_CHANGE: f64 = 0.3;
+const MAX_CHANGE: f64 = 0.5;
 
 /// Sets of contacts tried before the search is given up.
 const MAX_TRIALS: usize = 12;
