@@ -102,10 +102,10 @@ def missed_bump(x: Any) -> tuple[Any, ...]:
 def saw(k: Any) -> tuple[Any, ...]:
     """Curve with hundreds of undeclared kinks."""
     x, dx = k + 0.1 * k**3, 1.0 + 0.3 * k**2
-    u = (400.0 * x) % 1.0
+    u = (800.0 * x) % 1.0
     tooth = np.abs(2 * u - 1.0) - 0.5
     sum_ = np.where(u < 0.5, u - u**2, 0.25 + (u - 0.5) ** 2) - u / 2
-    return x, x**2 / 2 + sum_ / 4000.0, dx, (x + tooth / 10.0) * dx
+    return x, x**2 / 2 + sum_ / 8000.0, dx, (x + tooth / 10.0) * dx
 
 
 class Sinks:
