@@ -36,8 +36,8 @@ const HALVES: usize = 52;
 /// the least one found: κ/π times its slope.
 const FAINT: f64 = 0.02;
 
-/// Largest fall of the pressure to a minimum between the places evaluated, as a multiple of that of
-/// the parabola through three of them: next to a knot of a spline 3.3 times has been seen.
+/// Largest fall of the pressure to a minimum between the places evaluated, in falls of the parabola
+/// through three of them: next to a knot of a spline 3.3 has been seen.
 const MOST_BELOW: f64 = 8.0;
 
 /// Largest number of steps to a minimum of the pressure between the places evaluated.

@@ -9,7 +9,7 @@ use common::{Counting, graph, on_flat, paper, power, scenes};
 use linecontact::profile::Ellipse;
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval, Midpoint,
-    ParametricProfile, Solution, SolveError, Solver,
+    ParametricProfile, Solution, SolveError, Solver, Start,
 };
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -440,4 +440,28 @@ fn a_given_width_is_found_by_a_solver_that_was_elsewhere() {
         let warm = solver.solve(contact, control).unwrap().hull();
         assert!((warm.left - cold.left).abs() < 1e-12, "{warm:?} {cold:?}");
     }
+}
+
+/// If the search from the last contacts fails, the solver falls back on `Contact::solve`, and the
+/// cost includes both.
+#[test]
+fn a_search_that_is_made_again_is_the_one_from_scratch() {
+    let ill = AtomicBool::new(false);
+    let body = Curve::new([-1.6, 1.6], |k: f64| {
+        // A number is missing once.
+        let is_ill = ill.swap(false, Ordering::Relaxed);
+        let dy = if is_ill { f64::NAN } else { 4.0 * k * (k * k - 1.0) };
+        CurvePoint { x: k, y: k * k * (k * k - 2.0), dx: 1.0, dy }
+    });
+    let [first, load] = [0.2, 0.29].map(Control::Load);
+    let cold = Contact::new(&Flat, &body).unwrap().solve(load).unwrap();
+    let (scene, mut solver) = (Contact::new(&Flat, &body).unwrap(), Solver::new());
+    solver.solve(&scene, first).unwrap();
+    ill.store(true, Ordering::Relaxed);
+    let warm = solver.solve(&scene, load).unwrap();
+    assert!(!ill.load(Ordering::Relaxed));
+    assert_ne!(warm.report().attempts()[0].start, Start::Last);
+    assert_eq!(warm.report(), cold.report());
+    assert_eq!(warm.intervals(), cold.intervals());
+    assert!(warm.cost().evaluations > cold.cost().evaluations);
 }

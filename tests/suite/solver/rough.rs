@@ -99,7 +99,7 @@ fn under_a_load_what_is_solved_from_scratch_is_solved_from_the_last_contact() {
     }
 }
 
-/// Under a load so much larger most contacts are others: the last ones would take more attempts.
+/// Under a load 3.7 times as large most contacts are others: the last would take more attempts.
 #[test]
 fn after_a_large_step_the_search_starts_anew() {
     let (seed, wave, noise) = BODIES[0];
