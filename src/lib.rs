@@ -88,6 +88,7 @@
 
 #[cfg(feature = "autodiff")]
 pub mod autodiff;
+mod compiled;
 pub mod contact;
 mod edge;
 mod ends;

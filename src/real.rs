@@ -1,5 +1,6 @@
 //! The scalar type of the crate.
 
+use crate::compiled::*;
 use nalgebra::RealField;
 use num_traits::FromPrimitive;
 
@@ -47,10 +48,16 @@ pub trait Real: RealField + Copy {
     fn epsilon() -> Self {
         Self::default_epsilon()
     }
+
+    entries!(doc(hidden));
 }
 
 impl Real for f32 {}
-impl Real for f64 {}
+impl Real for f64 {
+    // Unit tests ask for little of the solver.
+    #[cfg(not(test))]
+    entries!(inline(never));
+}
 
 /// Tells whether two numbers agree in all components. (Dual numbers compare by their values.)
 pub(crate) fn same<T: Real>(a: T, b: T) -> bool {

@@ -83,6 +83,13 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`EvaluationError::NoLoadDerivative`](crate::EvaluationError::NoLoadDerivative) with a given
     /// approach; the errors of [`Solution::certify`] if [`certified`](Self::certified).
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
+        T::solve(self, control)
+    }
+
+    pub(crate) fn solve_cold(
+        &self,
+        control: Control<T>,
+    ) -> Result<Solution<'b, T>, ContactError<T>> {
         let (mut integrator, mut workspace) = (self.quadrature.integrator()?, Workspace::new());
         let mut cost = Cost::default();
         let mut work =

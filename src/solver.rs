@@ -69,6 +69,14 @@ impl<T: Real> Solver<T> {
         contact: &Contact<'b, T>,
         control: Control<T>,
     ) -> Result<Solution<'b, T>, ContactError<T>> {
+        T::solve_next(self, contact, control)
+    }
+
+    pub(crate) fn solve_next<'b>(
+        &mut self,
+        contact: &Contact<'b, T>,
+        control: Control<T>,
+    ) -> Result<Solution<'b, T>, ContactError<T>> {
         let serves = |integrator: &Arc<Box<_>>| contact.chosen_quadrature().serves(&***integrator);
         let mut is_warm = self.last.is_some() && self.integrator.as_ref().is_some_and(serves);
         let mut spent = Cost::default();

@@ -131,6 +131,15 @@ impl<T: Real> SpringTable<T> {
         loads: [T; 2],
         tolerance: T,
     ) -> Result<Self, ContactError<T>> {
+        T::spring_table(contact, references, loads, tolerance)
+    }
+
+    pub(crate) fn solve(
+        contact: &Contact<'_, T>,
+        references: &References<T>,
+        loads: [T; 2],
+        tolerance: T,
+    ) -> Result<Self, ContactError<T>> {
         let [least, largest] = loads;
         if !(least > T::zero() && least < largest && largest.is_finite()) {
             let is_least = !(least > T::zero() && least.is_finite());

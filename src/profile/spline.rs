@@ -141,6 +141,10 @@ impl<T: Real> Spline<T> {
     /// # Errors
     /// [`SplineError`], with the row of the faulty point.
     pub fn fitted(points: &[[T; 2]], fit: Fit<T>) -> Result<Self, SplineError<T>> {
+        T::spline(points, fit)
+    }
+
+    pub(crate) fn fit(points: &[[T; 2]], fit: Fit<T>) -> Result<Self, SplineError<T>> {
         points::check(points)?;
         if let Some(most) = fit.outliers {
             points::check_outliers(points, most)?;

@@ -180,8 +180,8 @@ impl Panels {
     pub const FULL: Self = Self { tolerance: 0.0 };
 }
 
-impl<T: Real> Quadrature<T> for Panels {
-    fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
+impl Panels {
+    pub(crate) fn prepared<T: Real>(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
         if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
             return Err(InputError::InvalidTolerance { tolerance: T::of(self.tolerance) }.into());
         }
@@ -197,6 +197,12 @@ impl<T: Real> Quadrature<T> for Panels {
             several: Several::new(tolerance),
             is_several: false,
         }))
+    }
+}
+
+impl<T: Real> Quadrature<T> for Panels {
+    fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
+        T::panels(self)
     }
 
     fn serves(&self, integrator: &dyn Integrator<T>) -> bool {

@@ -94,7 +94,7 @@ impl<T: Real> Solution<'_, T> {
     /// [`pressure`](Self::pressure);
     /// [`EvaluationError::Integral`](crate::EvaluationError::Integral).
     pub fn approach(&self, references: &References<T>) -> Result<Approach<T>, ContactError<T>> {
-        self.approaching(references)?.of_all()
+        T::approach(self, references)
     }
 
     /// Returns the stiffness dF/dδ of the bodies against each other, a pressure: the derivative of
@@ -124,7 +124,7 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// As [`approach`](Self::approach), and those of [`load_rates`](Self::load_rates).
     pub fn stiffness(&self, references: &References<T>) -> Result<T, ContactError<T>> {
-        Ok(T::one() / self.approaching(references)?.rate()?)
+        Ok(T::one() / T::approach_rate(self, references)?)
     }
 }
 
@@ -284,7 +284,7 @@ impl<'s, T: Real> Approaching<'s, T> {
     }
 
     /// Returns dδ/dF: with ∂P/∂F any contact may be the first.
-    fn rate(&self) -> Result<T, ContactError<T>> {
+    pub fn rate(&self) -> Result<T, ContactError<T>> {
         let (rates, contacts) = (LoadRates::new(self.solved)?, self.solved.contacts());
         if let [on] = *contacts {
             let References { lower, upper, .. } = self.references;
@@ -333,7 +333,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         }
     }
 
-    fn of_all(&self) -> Result<Approach<T>, ContactError<T>> {
+    pub fn of_all(&self) -> Result<Approach<T>, ContactError<T>> {
         let integrals = Integrals::new(self.solved)?;
         let (smooth, first) = (self.smooth(&integrals)?, self.first()?);
         let logarithm = self.logarithm(&integrals, &first)?;

@@ -13,7 +13,7 @@
 use super::Solved;
 use super::pressure_integral::Integrals;
 use crate::gap::Sampler;
-use crate::{ContactError, EvaluationError, Interval, Real, Solution, SolveError};
+use crate::{ContactError, EvaluationError, Interval, Pressure, Real, Solution, SolveError};
 
 impl<T: Real> Solution<'_, T> {
     /// Returns the distance between the loaded bodies at `x` outside the contact, measured along y:
@@ -27,7 +27,7 @@ impl<T: Real> Solution<'_, T> {
     /// [`SolveError::OutsideBodies`] beyond either body, and for NaN; those of
     /// [`pressure`](Self::pressure), of sampling the gap, and [`EvaluationError::Integral`].
     pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
-        self.solved().gap_at(x)
+        T::gap_at(self, x)
     }
 
     /// Returns the slope of the gap between the loaded bodies, positive where it opens towards
@@ -36,13 +36,7 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// As [`gap_at`](Self::gap_at), and [`EvaluationError::Singular`] at an edge that is not free.
     pub fn gap_slope(&self, x: T) -> Result<T, ContactError<T>> {
-        let (edge, free) = self.solved().nearest_edge(x)?;
-        if x == edge {
-            return if free { Ok(T::zero()) } else { Err(EvaluationError::Singular { x }.into()) };
-        }
-        let bodies = Sampler::default().slope(&self.gap, x)?;
-        let pull = self.pressure()?.cauchy_transform()?.at(x, T::zero())[0].re;
-        Ok(bodies - pull / self.kappa)
+        T::gap_slope(self, x)
     }
 }
 
@@ -61,6 +55,16 @@ impl<T: Real> Solved<'_, T> {
         let [pushed] = Integrals::new(*self)?
             .over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
         Ok(bodies - pushed / self.kappa)
+    }
+
+    pub fn gap_slope(&self, x: T) -> Result<T, ContactError<T>> {
+        let (edge, free) = self.nearest_edge(x)?;
+        if x == edge {
+            return if free { Ok(T::zero()) } else { Err(EvaluationError::Singular { x }.into()) };
+        }
+        let bodies = Sampler::default().slope(self.gap, x)?;
+        let pull = Pressure::new(*self)?.cauchy_transform()?.at(x, T::zero())[0].re;
+        Ok(bodies - pull / self.kappa)
     }
 
     /// Returns the edge nearest to a point outside the contacts, with a flag: the edge is free.

@@ -110,7 +110,7 @@ impl<T: Real> Solution<'_, T> {
     /// ([`Midpoint`](crate::Midpoint)), unless both limits are given; where contacts appear or
     /// merge.
     pub fn load_rates(&self) -> Result<LoadRates<T>, ContactError<T>> {
-        LoadRates::new(self.solved())
+        T::load_rates(self)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Mean pressure, moment and centre of pressure.
 
+use super::Solved;
 use super::pressure_integral::Integrals;
 use crate::{ContactError, InputError, Interval, Real, Solution, SolveError};
 
@@ -19,7 +20,7 @@ impl<T: Real> Solution<'_, T> {
     /// [`EvaluationError::Integral`](crate::EvaluationError::Integral); [`SolveError::Overflow`].
     pub fn moment(&self) -> Result<T, ContactError<T>> {
         let interval = self.hull();
-        let moment = interval.half_width() * self.moment_by_half_width()?;
+        let moment = interval.half_width() * T::moment(self)?;
         if moment.is_finite() { Ok(moment) } else { Err(SolveError::Overflow { interval }.into()) }
     }
 
@@ -34,16 +35,18 @@ impl<T: Real> Solution<'_, T> {
         if load.is_zero() {
             return Err(InputError::InvalidLoad { quantity: "load", value: load }.into());
         }
-        Ok(self.hull().half_width() * (self.moment_by_half_width()? / load))
+        Ok(self.hull().half_width() * (T::moment(self)? / load))
     }
+}
 
+impl<T: Real> Solved<'_, T> {
     /// Returns the moment over the half-width, a force per unit length: the moment may overflow
     /// where the centre of pressure does not.
-    fn moment_by_half_width(&self) -> Result<T, ContactError<T>> {
-        let on = self.hull();
+    pub fn moment_by_half_width(&self) -> Result<T, ContactError<T>> {
+        let on = self.found.interval;
         let (centre, half_width) = (on.centre(), on.half_width());
         let share = |distance: T, strength: T| [-(distance / half_width) * strength];
-        let [about_centre] = Integrals::new(self.solved())?.over(centre, share)?;
-        Ok(centre / half_width * self.load() + about_centre)
+        let [about_centre] = Integrals::new(*self)?.over(centre, share)?;
+        Ok(centre / half_width * self.found.load + about_centre)
     }
 }

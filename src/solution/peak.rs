@@ -58,14 +58,18 @@ impl<T: Real> Solution<'_, T> {
     /// contacts); [`EvaluationError::Unresolved`] from a [`Midpoint`](crate::Midpoint) of fewer
     /// than four segments; those of sampling the gap.
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
-        self.integrator.complete(&self.gap)?;
-        let (_, x, Estimate { value: pressure, .. }) =
-            self.solved().largest_pressure(&mut Cost::default())?;
-        Ok(Peak { x, pressure })
+        T::peak(self)
     }
 }
 
 impl<T: Real> Solved<'_, T> {
+    pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
+        self.integrator.complete(self.gap)?;
+        let (_, x, Estimate { value: pressure, .. }) =
+            self.largest_pressure(&mut Cost::default())?;
+        Ok(Peak { x, pressure })
+    }
+
     /// Finds the largest pressure of all contacts: the number of its contact, its place and value.
     pub fn largest_pressure(
         &self,

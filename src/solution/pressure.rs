@@ -83,6 +83,10 @@ impl<T: Real> Pressure<'_, T> {
     /// [`SolveError::OutsideBodies`] beyond either body, and for NaN; those of sampling the gap at
     /// `x`.
     pub fn at(&self, x: T) -> Result<T, ContactError<T>> {
+        T::pressure(self, x)
+    }
+
+    pub(crate) fn at_one(&self, x: T) -> Result<T, ContactError<T>> {
         let estimate = self.estimate(x, &mut Cost::default())?;
         let Estimate { value: pressure, error } = estimate;
         // With other edges a pressure may pass through zero, where only its absolute error counts.
@@ -109,6 +113,10 @@ impl<T: Real> Pressure<'_, T> {
     /// As [`estimate`](Self::estimate). The points before the failing one have been filled in.
     /// [`EvaluationError::LengthMismatch`] if the two slices are not of the same length.
     pub fn at_many(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+        T::pressures(self, x, pressures)
+    }
+
+    pub(crate) fn at_all(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
         if x.len() != pressures.len() {
             return Err(
                 EvaluationError::LengthMismatch { x: x.len(), pressures: pressures.len() }.into()

@@ -1,6 +1,6 @@
 //! Accuracy of a solution, its checks, and its cost.
 
-use super::{Certificate, Report, Solution, certify};
+use super::{Certificate, Report, Solution};
 use crate::gap::Cost;
 use crate::{ContactError, Ends, Real};
 
@@ -46,7 +46,7 @@ impl<T: Real> Solution<'_, T> {
     /// [`SolveError::Overlap`](crate::SolveError::Overlap) at the deepest overlap,
     /// [`SolveError::Undecided`](crate::SolveError::Undecided); those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
-        certify(self.solved())
+        T::certify(self)
     }
 
     /// Returns the cost of finding the limits, including the pressures taken for

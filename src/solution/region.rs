@@ -1,7 +1,7 @@
 //! The contacts of a solution, one by one.
 
 use super::pressure_integral::Integrals;
-use super::{Peak, Solution};
+use super::{ContactState, Peak, Solution, Solved};
 use crate::gap::Cost;
 use crate::{ContactError, Ends, EvaluationError, InputError, Interval, Real};
 
@@ -93,14 +93,20 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of [`pressure`](Self::pressure), and [`EvaluationError::Integral`].
     pub fn contacts(&self) -> Result<Vec<ContactRegion<T>>, ContactError<T>> {
-        let integrals = Integrals::new(self.solved())?;
-        let last = self.intervals().len() - 1;
-        let strengths = self.edge_singularities();
+        T::regions(self)
+    }
+}
+
+impl<T: Real> Solved<'_, T> {
+    pub fn regions(&self) -> Result<Vec<ContactRegion<T>>, ContactError<T>> {
+        let integrals = Integrals::new(*self)?;
+        let last = self.contacts().len() - 1;
+        let ContactState { load: whole, strengths, .. } = *self.found;
         let region = |(i, &interval): (usize, &Interval<T>)| {
             let half_width = interval.half_width();
             let both = |distance: T, strength: T| [strength, -(distance / half_width) * strength];
             let [load, turning] = integrals.over_one(i, interval.centre(), both)?;
-            let peak = match self.solved().peak_in(i, &mut Cost::default()) {
+            let peak = match self.peak_in(i, &mut Cost::default()) {
                 Ok((x, top)) => Some(Peak { x, pressure: top.value }),
                 Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => None,
                 Err(error) => return Err(error),
@@ -110,12 +116,12 @@ impl<T: Real> Solution<'_, T> {
             Ok(ContactRegion {
                 interval,
                 // The load of a single contact is known.
-                load: if last == 0 { self.load() } else { load },
+                load: if last == 0 { whole } else { load },
                 edge_singularities: outermost.zip(strengths).map(strength),
                 peak,
                 turning,
             })
         };
-        self.intervals().iter().enumerate().map(region).collect()
+        self.contacts().iter().enumerate().map(region).collect()
     }
 }

@@ -169,6 +169,10 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of [`pressure`](Self::pressure).
     pub fn subsurface(&self) -> Result<Subsurface<'_, T>, ContactError<T>> {
+        T::subsurface(self)
+    }
+
+    pub(crate) fn below(&self) -> Result<Subsurface<'_, T>, ContactError<T>> {
         let (pressure, friction) = (self.pressure()?, T::zero());
         let transform = pressure.cauchy_transform()?;
         Ok(Subsurface { solution: self, pressure, transform, friction, stick: None })
@@ -195,6 +199,10 @@ impl<T: Real> Subsurface<'_, T> {
     /// finite; [`EvaluationError::Singular`] on the surface where the pressure is infinite; on the
     /// surface, with friction, those of sampling the gap.
     pub fn at(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
+        T::stress(self, x, depth)
+    }
+
+    pub(crate) fn stress(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
         let [normal, along] = self.parts(x, depth, !self.friction.is_zero())?;
         let stress = normal.with(self.friction, along);
         match &self.stick {

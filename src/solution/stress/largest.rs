@@ -43,6 +43,10 @@ impl<T: Real> Subsurface<'_, T> {
     /// [`SolveError::Cancelled`](crate::SolveError::Cancelled) by the function that
     /// [watches](crate::Contact::watch).
     pub fn max_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
+        T::largest_shear(self)
+    }
+
+    pub(crate) fn largest_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
         self.check_edges(|_, _| true)?;
         self.check_tips(false)?;
         self.largest(|stress| Ok(stress.max_shear()))
@@ -54,6 +58,10 @@ impl<T: Real> Subsurface<'_, T> {
     /// As [`max_shear`](Self::max_shear), without friction also where the slope of the gap jumps,
     /// unless ν is 1/2; [`InputError::InvalidPoissonRatio`].
     pub fn max_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
+        T::largest_von_mises(self, poisson)
+    }
+
+    pub(crate) fn largest_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
         let poisson = checked_ratio(poisson)?;
         self.check_edges(|_, _| true)?;
         self.check_tips(poisson != T::of(0.5))?;
@@ -196,7 +204,7 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
     fn found(&self, place: [T; 2], x: T, depth: T) -> Result<Found<T>, ContactError<T>> {
         let solution = self.below.solution;
         solution.gap.check_watch(solution.cost(), self.on)?;
-        let value = match self.below.at(x, depth) {
+        let value = match self.below.stress(x, depth) {
             Ok(stress) => (self.value)(stress)?,
             // The shear is bounded, or the strength of the edge is only rounding.
             Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => -T::one(),

@@ -20,6 +20,10 @@ impl<T: Real> Subsurface<'_, T> {
     /// [`SolveError::Cancelled`](crate::SolveError::Cancelled) by the function that
     /// [watches](crate::Contact::watch).
     pub fn max_tension(&self) -> Result<Extremum<T>, ContactError<T>> {
+        T::largest_tension(self)
+    }
+
+    pub(crate) fn largest_tension(&self) -> Result<Extremum<T>, ContactError<T>> {
         let zero = T::zero();
         let is_stretched = |side, strength| {
             let stick = self.stick.as_ref().map(|stick| stick.solution.found.strengths[side]);
@@ -62,7 +66,7 @@ impl<T: Real> Subsurface<'_, T> {
     /// Returns σ_x on the surface; minus infinity where the pressure is infinite.
     fn tension(&self, x: T, on: Interval<T>) -> Result<T, ContactError<T>> {
         self.solution.gap.check_watch(self.solution.cost(), on)?;
-        match self.at(x, T::zero()) {
+        match self.stress(x, T::zero()) {
             Ok(stress) => Ok(stress.sigma_x),
             Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => {
                 Ok(T::of(f64::NEG_INFINITY))
