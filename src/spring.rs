@@ -67,10 +67,8 @@ pub struct SpringPoint<T> {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))
-)]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: Real + serde::Deserialize<'de>")))]
 pub struct SpringTable<T> {
     #[cfg_attr(feature = "serde", serde(deserialize_with = "checked"))]
     points: Vec<Node<T>>,

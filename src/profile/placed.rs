@@ -3,8 +3,7 @@
 use super::{Convexity, CurvePoint, ParametricProfile, Piece, ProfileError, finite};
 use crate::Real;
 
-/// Names of quantities in errors.
-const SHIFT: &str = "a shift of a placement";
+/// Name of a quantity in errors.
 const FACTORS: &str = "the product of all factors of a placement";
 
 /// Placement of a body: a map of the plane that keeps angles, built step by step.
@@ -55,7 +54,7 @@ impl<T: Real> Placement<T> {
     #[must_use]
     pub fn shifted(mut self, along: T, across: T) -> Self {
         for (shift, by) in [along, across].into_iter().enumerate() {
-            self = self.asked(SHIFT, by, true);
+            self = self.asked("a shift of a placement", by, true);
             self.shift[shift] += by;
         }
         self

@@ -33,17 +33,9 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(
-        default,
-        deny_unknown_fields,
-        bound(
-            serialize = "T: Real + serde::Serialize",
-            deserialize = "T: Real + serde::Deserialize<'de>"
-        )
-    )
-)]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+#[cfg_attr(feature = "serde", serde(bound(serialize = "T: Real + serde::Serialize")))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: Real + serde::Deserialize<'de>")))]
 pub struct Fit<T> {
     /// True to smooth the points, false (the default) for a curve through them.
     ///
@@ -109,6 +101,8 @@ struct Cubic<T> {
     x: [T; 2],
     /// Coefficients of `Y` by the distance from the left knot, the constant first.
     coefficients: [T; 4],
+    /// False if the spline has noise, which a placement forgets.
+    is_exact: bool,
 }
 
 impl<T: Real> Spline<T> {
@@ -215,7 +209,7 @@ impl<T: Real> Spline<T> {
             let chord = (to[0] - from[0]) / h;
             let second = (three * chord - two * from[1] - to[1]) / h;
             let third = (from[1] + to[1] - two * chord) / h / h;
-            Cubic { x, coefficients: [from[0], from[1], second, third] }
+            Cubic { x, coefficients: [from[0], from[1], second, third], is_exact: true }
         };
         let cubics = x.windows(2).zip(knots.windows(2)).map(cubic).collect();
         let spline = Self { cubics, noise: T::zero(), smooth: None };
@@ -265,7 +259,7 @@ impl<T: Real> Spline<T> {
         placement: Placement<T>,
     ) -> Result<Piecewise<T, Placed<T, impl ParametricProfile<T>>>, PiecewiseError<T>> {
         let is_exact = self.noise.is_zero();
-        let part = |cubic| Part { cubic, is_exact };
+        let part = |cubic| Cubic { is_exact, ..cubic };
         Piecewise::new(self.cubics.into_iter().map(part).collect())?.placed(placement)
     }
 
@@ -287,26 +281,6 @@ impl<T: Real> ParametricProfile<T> for Cubic<T> {
 
     fn slope_at(&self, x: T) -> Option<T> {
         Some(self.slope(x - self.x[0]))
-    }
-}
-
-/// Cubic of a spline that is placed.
-struct Part<T> {
-    cubic: Cubic<T>,
-    is_exact: bool,
-}
-
-impl<T: Real> ParametricProfile<T> for Part<T> {
-    fn domain(&self) -> [T; 2] {
-        self.cubic.x
-    }
-
-    fn at(&self, k: T) -> CurvePoint<T> {
-        self.cubic.at(k)
-    }
-
-    fn slope_at(&self, x: T) -> Option<T> {
-        self.cubic.slope_at(x)
     }
 
     fn slope_deviation(&self, _: &[T], _: &[T]) -> Option<T> {
