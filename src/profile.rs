@@ -22,10 +22,9 @@
 //! flips and scales a shape; [`Piecewise::placed`] does so with a joined one.
 //!
 //! With the feature `serde` the smooth shapes can be kept in files, under the names of their
-//! parameters (`radius`, `along`, `across`, `slope`, `base_radius`, `origin`, `depth`,
-//! `half_length`, `domain`, `angles`), and with the feature `scene` all of them, joined and placed
-//! ones too, as a `scene::PlacedShape`. A shape read from a file is made by its constructor, with
-//! the same errors:
+//! constructors' arguments, and with the feature `scene` all of them, joined and placed ones too,
+//! as a `scene::PlacedShape`. A shape read from a file is made by its constructor, with the same
+//! errors:
 //!
 //! ```
 //! # #[cfg(feature = "serde")] {

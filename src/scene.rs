@@ -58,10 +58,8 @@ use serde::{Deserialize, Serialize};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    bound(serialize = "T: Real + Serialize", deserialize = "T: Real + Deserialize<'de>")
-)]
+#[serde(deny_unknown_fields)]
+#[serde(bound(serialize = "T: Real + Serialize", deserialize = "T: Real + Deserialize<'de>"))]
 #[non_exhaustive]
 pub struct Scene<T> {
     /// Name of the scene, for people.

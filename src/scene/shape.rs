@@ -1,20 +1,17 @@
 //! Bodies by their parameters.
 
-use crate::profile::stored::Pair;
-use crate::profile::{
-    Crowning, Ellipse, Fit, Involute, Line, Parabola, Placed, Placement, Spline, rounded_punch,
-    wedge,
-};
+use crate::profile::stored::{pair, shapes};
+use crate::profile::{self, Fit, Placed, Placement, Spline};
 use crate::{ContactError, Flat, ParametricProfile, Piecewise, Real};
 use serde::{Deserialize, Deserializer, Serialize, de};
 use std::sync::Arc;
 
+type Built<T> = Result<Arc<dyn ParametricProfile<T>>, ContactError<T>>;
+
 /// Body that a file can hold: a shape, and the steps that place it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    bound(serialize = "T: Real + Serialize", deserialize = "T: Real + Deserialize<'de>")
-)]
+#[serde(deny_unknown_fields)]
+#[serde(bound(serialize = "T: Real + Serialize", deserialize = "T: Real + Deserialize<'de>"))]
 pub struct PlacedShape<T> {
     /// Shape, with its vertex at the origin.
     pub shape: Shape<T>,
@@ -23,61 +20,138 @@ pub struct PlacedShape<T> {
     pub steps: Vec<Step<T>>,
 }
 
-/// Shape by its parameters, under the names of its constructor's arguments.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    rename_all = "snake_case",
-    bound(serialize = "T: Real + Serialize", deserialize = "T: Real + Deserialize<'de>")
-)]
-#[non_exhaustive]
-pub enum Shape<T> {
-    /// Level line without ends.
-    Flat,
-    /// Straight line.
-    Line(Line<T>),
-    /// Parabola.
-    Parabola(Parabola<T>),
-    /// Arc of an ellipse or a circle.
-    Ellipse(Ellipse<T>),
-    /// Flank of a gear tooth.
-    Involute(Involute<T>),
-    /// Logarithmic crowning.
-    Crowning(Crowning<T>),
-    /// Two flanks: [`wedge`].
-    Wedge {
-        /// Slopes of the left and the right flank.
-        #[serde(deserialize_with = "pair")]
-        slopes: [T; 2],
-        /// Length to which the flanks reach, on either side.
-        reach: T,
-    },
-    /// Flat between two half parabolas: [`rounded_punch`].
-    RoundedPunch {
-        /// Half of the flat, a length.
-        flat: T,
-        /// Radius of the edges, a length.
-        radius: T,
-        /// Length to which the edges reach, on either side.
-        reach: T,
-    },
-    /// Measured points: [`Spline::fitted`].
-    Spline {
-        /// Points `[x, y]` in order of rising x.
-        #[serde(deserialize_with = "pairs")]
-        points: Vec<[T; 2]>,
-        /// Settings of the fit.
-        #[serde(default)]
-        fit: Fit<T>,
-    },
-    /// Pieces from left to right: [`Piecewise::new`].
-    Piecewise {
-        /// Pieces; each may be joined itself.
-        parts: Vec<PlacedShape<T>>,
-        /// Tolerance of the joints: [`Piecewise::with_tolerance`].
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        tolerance: Option<T>,
-    },
+/// Makes [`Shape`] from the table of shapes.
+macro_rules! shape {
+    (
+        $($(#[$about:meta])* $name:literal $body:ident {
+            $($field:ident: $($one:ident)? $([$two:ident; 2])?),*
+        })*
+        ; $($(#[$says:meta])* $called:literal $whole:ident = $join:ident {
+            $($(#[$tells:meta])* $part:ident: $($single:ident)? $([$double:ident; 2])?),*
+        })*
+    ) => {
+        /// Shape by its parameters, under the names of its constructor's arguments.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields, rename_all = "snake_case", bound(
+            serialize = "T: Real + Serialize", deserialize = "T: Real + Deserialize<'de>"
+        ))]
+        #[non_exhaustive]
+        pub enum Shape<T> {
+            /// Level line without ends.
+            Flat,
+            $($(#[$about])* #[serde(rename = $name)] $body(profile::$body<T>),)*
+            $($(#[$says])* #[serde(rename = $called)] $whole {$(
+                $(#[$tells])*
+                $($part: $single,)?
+                $(#[serde(deserialize_with = "pair")] $part: [$double; 2],)?
+            )*},)*
+            /// Measured points: [`Spline::fitted`].
+            Spline {
+                /// Points `[x, y]` in order of rising x.
+                #[serde(deserialize_with = "pairs")]
+                points: Vec<[T; 2]>,
+                /// Settings of the fit.
+                #[serde(default)]
+                fit: Fit<T>,
+            },
+            /// Pieces from left to right: [`Piecewise::new`].
+            Piecewise {
+                /// Pieces; each may be joined itself.
+                parts: Vec<PlacedShape<T>>,
+                /// Tolerance of the joints: [`Piecewise::with_tolerance`].
+                #[serde(default, skip_serializing_if = "Option::is_none")]
+                tolerance: Option<T>,
+            },
+        }
+
+        impl<T: Real> Shape<T> {
+            /// Makes the shape that has this name in files from its numbers. They are asked for by
+            /// name, those of a pair as `domain.0` and `domain.1`. Returns `None` if no shape of
+            /// numbers alone has the name, or a number is missing.
+            ///
+            /// ```
+            /// use linecontact::scene::Shape;
+            ///
+            /// let given = [("radius", 2.0), ("domain.0", -1.0), ("domain.1", 1.0)];
+            /// let number = |name: &str| Some(given.iter().find(|(known, _)| *known == name)?.1);
+            /// let parabola = Shape::from_numbers("parabola", number);
+            /// assert!(matches!(parabola, Some(Ok(Shape::Parabola(_)))));
+            /// assert!(Shape::from_numbers("line", number).is_none());
+            /// ```
+            ///
+            /// # Errors
+            /// [`InputError::Shape`](crate::InputError::Shape), as of the constructor.
+            pub fn from_numbers(
+                name: &str,
+                mut number: impl FnMut(&str) -> Option<T>,
+            ) -> Option<Result<Self, ContactError<T>>> {
+                Some(match name {
+                    "flat" => Ok(Self::Flat),
+                    $($name => profile::$body::new($(
+                        $(std::convert::identity::<$one>(number(stringify!($field))?))?
+                        $(both::<$two, _>(stringify!($field), &mut number)?)?
+                    ),*).map(Self::$body).map_err(Into::into),)*
+                    $($called => Ok(Self::$whole {$(
+                        $($part: std::convert::identity::<$single>(number(stringify!($part))?),)?
+                        $($part: both::<$double, _>(stringify!($part), &mut number)?,)?
+                    )*}),)*
+                    _ => return None,
+                })
+            }
+
+            /// Builds the body where it is placed, if it is. A smoothed spline is fitted to the
+            /// points there, so that it keeps its uncertainty.
+            ///
+            /// # Errors
+            /// As [`PlacedShape::build`].
+            pub fn build(&self, to: Option<Placement<T>>) -> Built<T> {
+                match self {
+                    Self::Flat => put(Flat, to, Placed::new),
+                    $(Self::$body(body) => put(*body, to, Placed::new),)*
+                    $(&Self::$whole { $($part),* } => {
+                        put(profile::$join($($part),*)?, to, Piecewise::placed)
+                    })*
+                    Self::Spline { points, fit } => match to {
+                        // Refuses an impossible placement.
+                        Some(to) if fit.smooth => put(Placed::new(Flat, to)?, Some(to), |_, to| {
+                            Spline::fitted_at(points, *fit, to)
+                        }),
+                        _ => put(Spline::fitted(points, *fit)?, to, Spline::placed),
+                    },
+                    Self::Piecewise { parts, tolerance } => {
+                        let parts = parts.iter().map(PlacedShape::build).collect::<Result<_, _>>()?;
+                        let whole = match *tolerance {
+                            None => Piecewise::new(parts)?,
+                            Some(tolerance) => Piecewise::with_tolerance(parts, tolerance)?,
+                        };
+                        put(whole, to, Piecewise::placed)
+                    }
+                }
+            }
+        }
+    };
+}
+shapes!(shape);
+
+/// Asks for both numbers of a pair.
+fn both<T, F: FnMut(&str) -> Option<T>>(name: &str, number: &mut F) -> Option<[T; 2]> {
+    Some([number(&format!("{name}.0"))?, number(&format!("{name}.1"))?])
+}
+
+/// Places a body, if it is to be placed.
+fn put<T: Real, P, Q, E: Into<ContactError<T>>>(
+    body: P,
+    to: Option<Placement<T>>,
+    placed: impl FnOnce(P, Placement<T>) -> Result<Q, E>,
+) -> Built<T>
+where
+    P: ParametricProfile<T> + 'static,
+    Q: ParametricProfile<T> + 'static,
+{
+    Ok(match to {
+        None => Arc::new(body),
+        Some(to) => Arc::new(placed(body, to).map_err(Into::into)?),
+    })
 }
 
 /// Step of a placement, about the origin: a method of [`Placement`].
@@ -111,50 +185,9 @@ impl<T: Real> PlacedShape<T> {
     /// [`InputError::Pieces`](crate::InputError::Pieces) and
     /// [`InputError::Points`](crate::InputError::Points), as of the constructors.
     pub fn build(&self) -> Result<Arc<dyn ParametricProfile<T>>, ContactError<T>> {
-        let to = (!self.steps.is_empty())
-            .then(|| self.steps.iter().fold(Placement::default(), Step::after));
-        macro_rules! joined {
-            ($whole:expr) => {
-                match to {
-                    None => Arc::new($whole),
-                    Some(to) => Arc::new($whole.placed(to)?),
-                }
-            };
-        }
-        Ok(match &self.shape {
-            Shape::Flat => smooth(Flat, to)?,
-            Shape::Line(line) => smooth(*line, to)?,
-            Shape::Parabola(parabola) => smooth(*parabola, to)?,
-            Shape::Ellipse(ellipse) => smooth(*ellipse, to)?,
-            Shape::Involute(involute) => smooth(*involute, to)?,
-            Shape::Crowning(crowning) => smooth(*crowning, to)?,
-            &Shape::Wedge { slopes, reach } => joined!(wedge(slopes, reach)?),
-            &Shape::RoundedPunch { flat, radius, reach } => {
-                joined!(rounded_punch(flat, radius, reach)?)
-            }
-            Shape::Spline { points, fit } => match to {
-                Some(to) if fit.smooth => Arc::new(Spline::fitted_at(points, *fit, to)?),
-                _ => joined!(Spline::fitted(points, *fit)?),
-            },
-            Shape::Piecewise { parts, tolerance } => {
-                let parts = parts.iter().map(Self::build).collect::<Result<_, _>>()?;
-                joined!(match *tolerance {
-                    None => Piecewise::new(parts)?,
-                    Some(tolerance) => Piecewise::with_tolerance(parts, tolerance)?,
-                })
-            }
-        })
+        let placed = || self.steps.iter().fold(Placement::default(), Step::after);
+        self.shape.build((!self.steps.is_empty()).then(placed))
     }
-}
-
-fn smooth<T: Real, P: ParametricProfile<T> + 'static>(
-    curve: P,
-    to: Option<Placement<T>>,
-) -> Result<Arc<dyn ParametricProfile<T>>, ContactError<T>> {
-    Ok(match to {
-        None => Arc::new(curve),
-        Some(to) => Arc::new(Placed::new(curve, to)?),
-    })
 }
 
 impl<T: Real> Step<T> {
@@ -169,9 +202,10 @@ impl<T: Real> Step<T> {
     }
 }
 
-fn pair<'de, T: Deserialize<'de>, D: Deserializer<'de>>(file: D) -> Result<[T; 2], D::Error> {
-    Pair::deserialize(file).map(|pair| pair.0)
-}
+/// Two numbers.
+#[derive(Deserialize)]
+#[serde(bound = "T: Deserialize<'de>")]
+struct Pair<T>(#[serde(deserialize_with = "pair")] [T; 2]);
 
 fn pairs<'de, T: Deserialize<'de>, D: Deserializer<'de>>(file: D) -> Result<Vec<[T; 2]>, D::Error> {
     Ok(Vec::<Pair<T>>::deserialize(file)?.into_iter().map(|pair| pair.0).collect())

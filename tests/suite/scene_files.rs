@@ -3,8 +3,10 @@
 use linecontact::profile::{Crowning, Ellipse, Fit, Involute, Line, Parabola};
 use linecontact::scene::{PlacedShape, Scene, SceneError, Shape, Step, Stiffness};
 use linecontact::{
-    Contact, Control, Edge, Ends, Flat, Material, PlaneState, Reference, References,
+    Contact, Control, Edge, Ends, Flat, InputError, Material, PlaneState, Reference, References,
 };
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
 
 /// Bodies of every shape, with numbers whose last digit matters.
 fn shapes() -> Vec<Shape<f64>> {
@@ -71,6 +73,51 @@ fn every_scene_is_kept_bit_for_bit() {
     }
 }
 
+/// Returns the names that a file may have in a place, from what is said of another: in backquotes,
+/// after the wrong one.
+fn allowed_in_place_of(shape: &Value) -> BTreeSet<String> {
+    let file = json!({ "lower": { "shape": shape }, "upper": { "shape": "flat" } });
+    let refused = Scene::<f64>::from_json(&file.to_string()).unwrap_err();
+    refused.reason.split('`').skip(3).step_by(2).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_schema_has_every_shape_and_its_parameters() {
+    let schema: Value = serde_json::from_str(include_str!("../../docs/scene.schema.json")).unwrap();
+    let names = |of: &Value| of.as_object().unwrap().keys().cloned().collect::<BTreeSet<_>>();
+    let mut described = BTreeSet::from(["flat".to_owned()]);
+    for one in schema["$defs"]["shape"]["oneOf"].as_array().unwrap() {
+        for (name, shape) in one["properties"].as_object().into_iter().flatten() {
+            let known = allowed_in_place_of(&json!({ name: { "unknown": 0 } }));
+            assert_eq!(names(&shape["properties"]), known, "{name}");
+            described.insert(name.clone());
+        }
+    }
+    let known = allowed_in_place_of(&json!("unknown"));
+    assert_eq!(described, known);
+    let name = |shape| match serde_json::to_value(shape).unwrap() {
+        Value::String(flat) => flat,
+        others => names(&others).pop_first().unwrap(),
+    };
+    assert_eq!(shapes().into_iter().map(name).collect::<BTreeSet<_>>(), known);
+}
+
+#[test]
+fn a_shape_is_made_from_its_numbers() {
+    let numbers = [("slopes.0", -0.1), ("slopes.1", 0.3), ("reach", 0.7), ("radius", 0.0)];
+    let number = |name: &str| Some(numbers.iter().find(|(known, _)| *known == name)?.1);
+    let wedge = Shape::Wedge { slopes: [-0.1, 0.3], reach: 0.7 };
+    assert_eq!(Shape::from_numbers("wedge", number), Some(Ok(wedge)));
+    assert_eq!(Shape::from_numbers("flat", number), Some(Ok(Shape::Flat)));
+    for name in ["parabola", "rounded_punch", "spline", "Wedge", ""] {
+        assert_eq!(Shape::from_numbers(name, number), None, "{name}");
+    }
+    let parabola = |name: &str| Some(if name == "domain.1" { 1.0 } else { 0.0 });
+    let refused = Parabola::new(0.0, [0.0, 1.0]).unwrap_err();
+    let found = Shape::from_numbers("parabola", parabola);
+    assert_eq!(found, Some(Err(InputError::Shape(refused).into())));
+}
+
 /// The package for Python reads and writes the same file.
 #[test]
 fn a_file_is_written_again_byte_by_byte() {
@@ -104,6 +151,14 @@ fn a_scene_solves_to_the_same_bits() {
         (scene.contact().unwrap().solve(load).unwrap(), by_hand.solve(load).unwrap());
     assert_eq!(read.hull(), made.hull());
     assert_eq!(read.peak().unwrap(), made.peak().unwrap());
+}
+
+#[test]
+fn a_smoothed_spline_is_not_put_where_nothing_can_be() {
+    let points = (-9..=9).map(|i| 0.1 * f64::from(i)).map(|x| [x, x * x]).collect();
+    let shape = Shape::Spline { points, fit: Fit { smooth: true, ..Fit::default() } };
+    let error = PlacedShape { shape, steps: vec![Step::Scaled(0.0)] }.build().err().unwrap();
+    assert_eq!(error.to_string(), "a factor of a placement is 0: it must be not zero");
 }
 
 #[test]
