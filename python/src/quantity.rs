@@ -6,58 +6,43 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::cell::OnceCell;
 
-/// Number of a solution.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    Load,
-    A,
-    B,
-    HalfWidth,
-    Centre,
-    Tilt,
-    MeanPressure,
-    PeakPressure,
-    PeakX,
-    Moment,
-    CentreOfPressure,
-    MaxShear,
-    MaxShearX,
-    MaxShearDepth,
-    Approach,
-    Stiffness,
-    Contacts,
-    LimitsError,
-    HalfWidthDeviation,
-    PeakPressureDeviation,
-    IsChecked,
-    Evaluations,
-}
+/// Makes the quantities, each with its name in Python.
+macro_rules! quantities {
+    ($($name:literal $quantity:ident)*) => {
+        /// Number of a solution.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Quantity {
+            $($quantity,)*
+        }
 
-/// Names in Python.
-pub const NAMES: &[(&str, Quantity)] = &[
-    ("load", Quantity::Load),
-    ("a", Quantity::A),
-    ("b", Quantity::B),
-    ("half_width", Quantity::HalfWidth),
-    ("centre", Quantity::Centre),
-    ("tilt", Quantity::Tilt),
-    ("mean_pressure", Quantity::MeanPressure),
-    ("peak_pressure", Quantity::PeakPressure),
-    ("peak_x", Quantity::PeakX),
-    ("moment", Quantity::Moment),
-    ("centre_of_pressure", Quantity::CentreOfPressure),
-    ("max_shear", Quantity::MaxShear),
-    ("max_shear_x", Quantity::MaxShearX),
-    ("max_shear_depth", Quantity::MaxShearDepth),
-    ("approach", Quantity::Approach),
-    ("stiffness", Quantity::Stiffness),
-    ("contacts", Quantity::Contacts),
-    ("limits_error", Quantity::LimitsError),
-    ("half_width_deviation", Quantity::HalfWidthDeviation),
-    ("peak_pressure_deviation", Quantity::PeakPressureDeviation),
-    ("is_checked", Quantity::IsChecked),
-    ("evaluations", Quantity::Evaluations),
-];
+        /// Names in Python.
+        pub const NAMES: &[(&str, Quantity)] = &[$(($name, Quantity::$quantity),)*];
+    };
+}
+quantities! {
+    "load" Load
+    "a" A
+    "b" B
+    "half_width" HalfWidth
+    "centre" Centre
+    "tilt" Tilt
+    "mean_pressure" MeanPressure
+    "peak_pressure" PeakPressure
+    "peak_x" PeakX
+    "moment" Moment
+    "centre_of_pressure" CentreOfPressure
+    "max_shear" MaxShear
+    "max_shear_x" MaxShearX
+    "max_shear_depth" MaxShearDepth
+    "approach" Approach
+    "stiffness" Stiffness
+    "contacts" Contacts
+    "limits_error" LimitsError
+    "half_width_deviation" HalfWidthDeviation
+    "peak_pressure_deviation" PeakPressureDeviation
+    "is_checked" IsChecked
+    "evaluations" Evaluations
+}
 
 impl Quantity {
     pub fn named(name: &str) -> PyResult<Self> {
