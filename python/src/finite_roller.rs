@@ -42,7 +42,7 @@ impl FiniteRoller {
         slices: usize,
         relief: &Profile,
     ) -> PyResult<Self> {
-        let (table, relief) = (table.0.clone(), relief.built.shared());
+        let (table, relief) = (table.0.clone(), relief.built.clone());
         call::library(py, || linecontact::FiniteRoller::new(table, length, slices, &relief))
             .map(Self)
     }

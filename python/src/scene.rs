@@ -107,29 +107,11 @@ pub fn contact_modulus(
     call::library(py, || state.contact_modulus(lower, upper))
 }
 
-/// Everything that a contact is made of.
-struct Settings {
-    lower: Py<Profile>,
-    upper: Py<Profile>,
-    kappa: Option<f64>,
-    contact_modulus: Option<f64>,
-    materials: Option<(Elastic, Elastic, String)>,
-    edges: Option<[(String, f64); 2]>,
-    edge_pressure: Option<[f64; 6]>,
-    start: Option<[f64; 2]>,
-    inversion: Option<Choice>,
-    limit_search: Option<Choice>,
-    quadrature: Option<Choice>,
-    resolution: Option<f64>,
-    certified: bool,
-    single_interval: bool,
-}
-
 impl Settings {
     /// Builds the contact from numbers that `lift` makes of the settings.
     fn build<L: Lift>(&self, py: Python<'_>, lift: &mut L) -> PyResult<Contact<'static, L::Of>> {
-        let lower = lift.inside("lower", |lift| lift.body(py, self.lower.get()))?.shared();
-        let upper = lift.inside("upper", |lift| lift.body(py, self.upper.get()))?.shared();
+        let lower = lift.inside("lower", |lift| lift.body(py, self.lower.get()))?;
+        let upper = lift.inside("upper", |lift| lift.body(py, self.upper.get()))?;
         let mut contact = call::library(py, || Contact::owned(lower, upper))?
             .watch(&call::watch)
             .certified(self.certified)
@@ -202,63 +184,57 @@ impl Scene {
     }
 }
 
-#[pymethods]
-impl Scene {
-    #[new]
-    #[pyo3(signature = (lower, upper, *, kappa, contact_modulus, materials, edges, edge_pressure, start,
-        inversion, limit_search, quadrature, resolution, certified, single_interval))]
-    #[expect(clippy::too_many_arguments, reason = "each is a setting with a name")]
-    fn new(
-        py: Python<'_>,
-        lower: Py<Profile>,
-        upper: Py<Profile>,
-        kappa: Option<f64>,
-        contact_modulus: Option<f64>,
-        materials: Option<(Elastic, Elastic, String)>,
-        edges: Option<[(String, f64); 2]>,
-        edge_pressure: Option<[f64; 6]>,
-        start: Option<[f64; 2]>,
-        inversion: Option<Choice>,
-        limit_search: Option<Choice>,
-        quadrature: Option<Choice>,
-        resolution: Option<f64>,
-        certified: bool,
-        single_interval: bool,
-    ) -> PyResult<Self> {
-        let settings = Settings {
-            lower,
-            upper,
-            kappa,
-            contact_modulus,
-            materials,
-            edges,
-            edge_pressure,
-            start,
-            inversion,
-            limit_search,
-            quadrature,
-            resolution,
-            certified,
-            single_interval,
-        };
-        let contact = settings.build(py, &mut AsTheyAre)?;
-        Ok(Self { settings, contact })
-    }
+/// Makes the class of scenes from its settings.
+macro_rules! scene {
+    ($($setting:ident: $type:ty,)*) => {
+        /// Everything that a contact is made of.
+        struct Settings {
+            $($setting: $type,)*
+        }
 
-    fn solve(&self, py: Python<'_>, prescribed: Prescribed) -> PyResult<Solution> {
-        let control = control(prescribed)?;
-        call::library(py, || self.contact.solve(control)).map(Solution)
-    }
+        #[pymethods]
+        impl Scene {
+            #[new]
+            #[pyo3(signature = (*, $($setting),*))]
+            #[expect(clippy::too_many_arguments, reason = "each is a setting with a name")]
+            fn new(py: Python<'_>, $($setting: $type),*) -> PyResult<Self> {
+                let settings = Settings { $($setting),* };
+                let contact = settings.build(py, &mut AsTheyAre)?;
+                Ok(Self { settings, contact })
+            }
 
-    fn partial_slip(
-        &self,
-        py: Python<'_>,
-        prescribed: Prescribed,
-        acting: (f64, f64, f64),
-    ) -> PyResult<PartialSlip> {
-        let (control, shear) = (control(prescribed)?, shear(acting));
-        call::library(py, || self.contact.partial_slip(control, shear)).map(PartialSlip)
-    }
+            fn solve(&self, py: Python<'_>, prescribed: Prescribed) -> PyResult<Solution> {
+                let control = control(prescribed)?;
+                call::library(py, || self.contact.solve(control)).map(Solution)
+            }
+
+            fn partial_slip(
+                &self,
+                py: Python<'_>,
+                prescribed: Prescribed,
+                acting: (f64, f64, f64),
+            ) -> PyResult<PartialSlip> {
+                let (control, shear) = (control(prescribed)?, shear(acting));
+                call::library(py, || self.contact.partial_slip(control, shear)).map(PartialSlip)
+            }
+        }
+    };
+}
+scene! {
+    lower: Py<Profile>,
+    upper: Py<Profile>,
+    kappa: Option<f64>,
+    contact_modulus: Option<f64>,
+    materials: Option<(Elastic, Elastic, String)>,
+    edges: Option<[(String, f64); 2]>,
+    edge_pressure: Option<[f64; 6]>,
+    start: Option<[f64; 2]>,
+    inversion: Option<Choice>,
+    limit_search: Option<Choice>,
+    quadrature: Option<Choice>,
+    resolution: Option<f64>,
+    certified: bool,
+    single_interval: bool,
 }
 
 /// Solver that starts from the contact found last.

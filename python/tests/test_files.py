@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +17,7 @@ import pytest
 
 import linecontact as lc
 from linecontact import errors
+from linecontact.bodies import _Shape
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = json.loads((ROOT / "docs/scene.schema.json").read_text(encoding="utf-8"))
@@ -57,6 +60,7 @@ def bodies() -> list[lc.Body]:
 @pytest.mark.parametrize("form", ["toml", "json"])
 @pytest.mark.parametrize("body", bodies(), ids=lambda body: str(type(body).__name__))
 def test_every_body_is_kept(body: lc.Body, form: str, tmp_path: Path) -> None:
+    """Through a file that the schema allows, with its numbers by the names of the constructor."""
     placed = body.shifted(0.1, 1e-7).mirrored().flipped().scaled(-1.7).rotated(1e-3)
     for made in (body, placed):
         contact = lc.Contact(lc.Flat().shifted(0.0, -9.0), made)
@@ -66,6 +70,35 @@ def test_every_body_is_kept(body: lc.Body, form: str, tmp_path: Path) -> None:
         first, last = made.domain
         k = np.linspace(first, last, 20)
         assert all(map(np.array_equal, read.upper.at(k), made.at(k)))
+        if form == "json":
+            jsonschema.validate(json.loads((tmp_path / "scene.json").read_text(encoding="utf-8")), SCHEMA)
+
+
+def test_these_are_all_bodies(tmp_path: Path) -> None:
+    assert {type(body).__name__ for body in bodies()} == set(lc.bodies.__all__) - {"Body", "Curve", "Placed"}
+    (tmp_path / "bad.toml").write_text(GOOD.replace("flat", "flet"))
+    with pytest.raises(errors.SceneFileError) as caught:
+        lc.Scene.from_file(tmp_path / "bad.toml")
+    known = set(re.findall("`(.*?)`", caught.value.reason)) - {"flet"}
+    assert known == {*_Shape.KINDS, "spline", "piecewise"}
+
+
+def test_the_numbers_of_a_shape_have_the_names_of_its_arguments() -> None:
+    for shape in [body for body in bodies() if isinstance(body, _Shape)]:
+        numbers = lc.parameters(lc.Contact(lc.Flat().shifted(0.0, -9.0), shape)).items()
+        expected: dict[str, float] = {}
+        for name, value in zip(inspect.signature(type(shape)).parameters, shape._arguments(), strict=True):
+            pair = {f"upper.{name}.{i}": one for i, one in enumerate(value)} if isinstance(value, tuple) else {}
+            expected |= pair or {f"upper.{name}": value}
+        assert {name: value for name, value in numbers if name.startswith("upper")} == expected
+
+
+def test_the_lists_of_shapes_have_every_shape() -> None:
+    modules, readme = (ROOT / name for name in ("src/profile.rs", "python/README.md"))
+    for name, shape in _Shape.KINDS.items():
+        text = modules.read_text(encoding="utf-8")
+        assert f"[`{shape.__name__}`]" in text or f"[`{name}`]" in text, name
+        assert f"`{shape.__name__}`" in readme.read_text(encoding="utf-8"), name
 
 
 TO = lc.References(0.1, lc.Reference.depth(ODD), lc.Reference.disc(10.0))

@@ -218,6 +218,7 @@ def test_bodies_pickle(body: lc.Body, put: Callable[[lc.Body], lc.Body]) -> None
 
 
 def test_a_repr_makes_the_body_again() -> None:
+    assert {type(body).__name__ for body in bodies()} == set(lc.bodies.__all__) - {"Body", "Placed"}
     for body in bodies():
         if isinstance(body, lc.Spline | lc.Curve):
             continue

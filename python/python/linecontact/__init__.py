@@ -16,22 +16,9 @@ A steel roller of 10 mm radius on a steel flat: mm, MPa, N/mm.
 
 from typing import get_type_hints as _types
 
+from . import bodies as _bodies
 from . import errors
-from .bodies import (
-    Body,
-    Crowning,
-    Curve,
-    Ellipse,
-    Flat,
-    Involute,
-    Line,
-    Parabola,
-    Piecewise,
-    Placed,
-    RoundedPunch,
-    Spline,
-    Wedge,
-)
+from .bodies import *
 from .contact import (
     Contact,
     Edge,
@@ -73,53 +60,40 @@ from .sweeping import Columns, sweep
 __all__ = [
     "Approach",
     "Attempt",
-    "Body",
     "Certificate",
     "Columns",
     "Contact",
     "ContactRegion",
     "Cost",
-    "Crowning",
-    "Curve",
     "Edge",
     "EdgePressure",
-    "Ellipse",
     "EvaluationError",
     "Extremum",
     "FiniteRoller",
-    "Flat",
     "InputError",
     "Interval",
-    "Involute",
-    "Line",
     "LineContactError",
     "LoadRates",
     "Material",
     "MeasuredProfile",
     "Midpoint",
     "Panels",
-    "Parabola",
     "PartialSlip",
     "Peak",
-    "Piecewise",
-    "Placed",
     "Reference",
     "References",
     "RollerState",
-    "RoundedPunch",
     "Scene",
     "Search",
     "Solution",
     "SolveError",
     "Solver",
-    "Spline",
     "SpringPoints",
     "SpringTable",
     "Stress",
     "StressPeak",
     "Summary",
     "Uncertainty",
-    "Wedge",
     "contact_modulus",
     "errors",
     "explore",
@@ -129,6 +103,7 @@ __all__ = [
     "solve",
     "sweep",
 ]
+__all__ += _bodies.__all__
 
 # A NamedTuple keeps the types of its fields as words: documentation needs the types.
 for _row in [_kind for _kind in globals().values() if hasattr(_kind, "_fields")]:

@@ -62,21 +62,7 @@ def sweep(
 @final
 class Profile:
     @staticmethod
-    def flat() -> Profile: ...
-    @staticmethod
-    def line(slope: float, domain: _Pair) -> Profile: ...
-    @staticmethod
-    def parabola(radius: float, domain: _Pair) -> Profile: ...
-    @staticmethod
-    def ellipse(along: float, across: float, angles: _Pair) -> Profile: ...
-    @staticmethod
-    def involute(base_radius: float, origin: float, angles: _Pair) -> Profile: ...
-    @staticmethod
-    def crowning(depth: float, half_length: float, domain: _Pair) -> Profile: ...
-    @staticmethod
-    def wedge(slopes: _Pair, reach: float) -> Profile: ...
-    @staticmethod
-    def rounded_punch(flat: float, radius: float, reach: float) -> Profile: ...
+    def shape(name: str, numbers: dict[str, float]) -> Profile: ...
     @staticmethod
     def spline(points: _Array, smooth: bool, outliers: float | None) -> Profile: ...
     @staticmethod
@@ -99,9 +85,9 @@ class Profile:
 class Scene:
     def __new__(
         cls,
+        *,
         lower: Profile,
         upper: Profile,
-        *,
         kappa: float | None,
         contact_modulus: float | None,
         materials: Any,

@@ -7,10 +7,11 @@ them into lower ones.
 
 from __future__ import annotations
 
+import inspect
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any, Literal, TypeAlias
+from typing import Any, ClassVar, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -239,7 +240,33 @@ class Placed(Body):
         return repr(self.body) + "".join(steps)
 
 
-class Flat(Body):
+class _Shape(Body):
+    """A body that its numbers describe: the arguments of the constructor, by the same names in files."""
+
+    KINDS: ClassVar[dict[str, type[_Shape]]] = {}
+    _kind: ClassVar[str]
+    _names: ClassVar[tuple[str, ...]]
+
+    def __init_subclass__(cls, kind: str = "") -> None:
+        # A class without a kind is derived from a shape, and is that shape.
+        if kind:
+            cls._kind, cls._names = kind, tuple(inspect.signature(cls).parameters)
+            cls.KINDS[kind] = cls
+
+    def _numbers(self) -> dict[str, float | Range]:
+        return dict(zip(self._names, self._arguments(), strict=True))
+
+    def _made(self) -> _native.Profile:
+        numbers: dict[str, float] = {}
+        for name, value in self._numbers().items():
+            if isinstance(value, tuple):
+                numbers |= {f"{name}.{i}": number for i, number in enumerate(value)}
+            else:
+                numbers[name] = value
+        return _native.Profile.shape(self._kind, numbers)
+
+
+class Flat(_Shape, kind="flat"):
     """The level line `Y = 0`, without ends.
 
     Examples
@@ -250,13 +277,13 @@ class Flat(Body):
     """
 
     def __init__(self) -> None:
-        self._profile = _native.Profile.flat()
+        self._profile = self._made()
 
     def _arguments(self) -> tuple[Any, ...]:
         return ()
 
 
-class Line(Body):
+class Line(_Shape, kind="line"):
     """The straight line `Y = m X` through the origin, with ends.
 
     Parameters
@@ -275,13 +302,13 @@ class Line(Body):
 
     def __init__(self, slope: float, domain: Sequence[float]) -> None:
         self.slope, self._domain = as_number(slope, "slope"), as_range(domain, "domain")
-        self._profile = _native.Profile.line(self.slope, self._domain)
+        self._profile = self._made()
 
     def _arguments(self) -> tuple[Any, ...]:
         return self.slope, self._domain
 
 
-class Parabola(Body):
+class Parabola(_Shape, kind="parabola"):
     """The parabola `Y = X²/(2 R)`.
 
     Parameters
@@ -300,13 +327,13 @@ class Parabola(Body):
 
     def __init__(self, radius: float, domain: Sequence[float]) -> None:
         self.radius, self._domain = as_number(radius, "radius"), as_range(domain, "domain")
-        self._profile = _native.Profile.parabola(self.radius, self._domain)
+        self._profile = self._made()
 
     def _arguments(self) -> tuple[Any, ...]:
         return self.radius, self._domain
 
 
-class Ellipse(Body):
+class Ellipse(_Shape, kind="ellipse"):
     """An arc of an ellipse, `X = A sin k`, `Y = B (1 - cos k)`, with its lowest point at k = 0.
 
     Parameters
@@ -326,7 +353,7 @@ class Ellipse(Body):
 
     def __init__(self, along: float, across: float, angles: Sequence[float]) -> None:
         self.along, self.across, self.angles = as_number(along, "along"), as_number(across, "across"), as_range(angles, "angles")
-        self._profile = _native.Profile.ellipse(self.along, self.across, self.angles)
+        self._profile = self._made()
 
     @classmethod
     def circle(cls, radius: float, angles: Sequence[float]) -> Ellipse:
@@ -352,7 +379,7 @@ class Ellipse(Body):
         return self.along, self.across, self.angles
 
 
-class Involute(Body):
+class Involute(_Shape, kind="involute"):
     """The flank of a gear tooth: the involute of a circle, with the origin at one of its points.
 
     Parameters
@@ -378,13 +405,13 @@ class Involute(Body):
     def __init__(self, base_radius: float, origin: float, angles: Sequence[float]) -> None:
         self.base_radius, self.origin = as_number(base_radius, "base_radius"), as_number(origin, "origin")
         self.angles = as_range(angles, "angles")
-        self._profile = _native.Profile.involute(self.base_radius, self.origin, self.angles)
+        self._profile = self._made()
 
     def _arguments(self) -> tuple[Any, ...]:
         return self.base_radius, self.origin, self.angles
 
 
-class Crowning(Body):
+class Crowning(_Shape, kind="crowning"):
     """Logarithmic (Lundberg) crowning, `Y = -C ln(1 - (X/l)²)`.
 
     In the plane it describes a body that is long across, such as a slide shoe. Along the axis of a
@@ -410,13 +437,13 @@ class Crowning(Body):
     def __init__(self, depth: float, half_length: float, domain: Sequence[float]) -> None:
         self.depth, self.half_length = as_number(depth, "depth"), as_number(half_length, "half_length")
         self._domain = as_range(domain, "domain")
-        self._profile = _native.Profile.crowning(self.depth, self.half_length, self._domain)
+        self._profile = self._made()
 
     def _arguments(self) -> tuple[Any, ...]:
         return self.depth, self.half_length, self._domain
 
 
-class Wedge(Body):
+class Wedge(_Shape, kind="wedge"):
     """Two straight flanks that meet at the origin.
 
     Parameters
@@ -437,13 +464,13 @@ class Wedge(Body):
 
     def __init__(self, slopes: Sequence[float], reach: float) -> None:
         self.slopes, self.reach = as_range(slopes, "slopes"), as_number(reach, "reach")
-        self._profile = _native.Profile.wedge(self.slopes, self.reach)
+        self._profile = self._made()
 
     def _arguments(self) -> tuple[Any, ...]:
         return self.slopes, self.reach
 
 
-class RoundedPunch(Body):
+class RoundedPunch(_Shape, kind="rounded_punch"):
     """A punch with a flat middle that continues as a parabola on either side.
 
     Parameters
@@ -464,7 +491,7 @@ class RoundedPunch(Body):
 
     def __init__(self, flat: float, radius: float, reach: float) -> None:
         self.flat, self.radius, self.reach = as_number(flat, "flat"), as_number(radius, "radius"), as_number(reach, "reach")
-        self._profile = _native.Profile.rounded_punch(self.flat, self.radius, self.reach)
+        self._profile = self._made()
 
     def _arguments(self) -> tuple[Any, ...]:
         return self.flat, self.radius, self.reach

@@ -535,8 +535,8 @@ class Contact(Unchanging):
             "single_interval": single_interval,
         }
         self._scene = _native.Scene(
-            lower._profile,
-            upper._profile,
+            lower=lower._profile,
+            upper=upper._profile,
             kappa=kappa,
             contact_modulus=contact_modulus,
             materials=None if materials is None else (*_both(materials), plane),

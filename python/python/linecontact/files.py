@@ -17,20 +17,7 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 
 from . import _native
-from .bodies import (
-    Body,
-    Crowning,
-    Ellipse,
-    Flat,
-    Involute,
-    Line,
-    Parabola,
-    Piecewise,
-    Placed,
-    RoundedPunch,
-    Spline,
-    Wedge,
-)
+from .bodies import Body, Piecewise, Placed, Spline, _Shape
 from .contact import Contact, Edge, Material, Prescribed, Reference, References, _both, _wanted
 from .errors import SceneFileError
 
@@ -38,17 +25,6 @@ Fields: TypeAlias = dict[str, Any]
 Named: TypeAlias = "str | Fields"
 
 __all__ = ["Scene"]
-
-# Shapes whose fields are the arguments of the constructor, in their order.
-_SHAPES: dict[str, tuple[type[Body], tuple[str, ...]]] = {
-    "line": (Line, ("slope", "domain")),
-    "parabola": (Parabola, ("radius", "domain")),
-    "ellipse": (Ellipse, ("along", "across", "angles")),
-    "involute": (Involute, ("base_radius", "origin", "angles")),
-    "crowning": (Crowning, ("depth", "half_length", "domain")),
-    "wedge": (Wedge, ("slopes", "reach")),
-    "rounded_punch": (RoundedPunch, ("flat", "radius", "reach")),
-}
 
 
 @dataclass(frozen=True)
@@ -179,16 +155,13 @@ def _named(value: Named) -> tuple[str, Any]:
 def _read_body(fields: Fields) -> Body:
     kind, shape = _named(fields["shape"])
     body: Body
-    if kind == "flat":
-        body = Flat()
-    elif kind == "spline":
+    if kind == "spline":
         fit = shape["fit"]
         body = Spline(shape["points"], smooth=fit["smooth"], outliers=fit["outliers"] or None)
     elif kind == "piecewise":
         body = Piecewise([_read_body(part) for part in shape["parts"]], shape.get("tolerance"))
     else:
-        made, names = _SHAPES[kind]
-        body = made(*(shape[name] for name in names))
+        body = _Shape.KINDS[kind](**dict(shape))
     steps = [_named(step) for step in fields.get("steps", ())]
     if not steps:
         return body
@@ -199,17 +172,15 @@ def _body_fields(body: Body, place: str) -> Fields:
     if isinstance(body, Placed):
         steps = [{name: numbers if numbers[1:] else numbers[0]} if numbers else name for name, numbers in body.steps]
         return _body_fields(body.body, place) | {"steps": steps}
-    if type(body) is Flat:
-        return {"shape": "flat"}
+    if isinstance(body, _Shape) and type(body) is body.KINDS[body._kind]:
+        numbers = body._numbers()
+        return {"shape": {body._kind: numbers} if numbers else body._kind}
     if type(body) is Spline:
         fit = {"smooth": body.smooth, "outliers": body.outliers or 0.0}
         return {"shape": {"spline": {"points": body.points, "fit": fit}}}
     if type(body) is Piecewise:
         parts = [_body_fields(part, f"{place}.parts[{i}]") for i, part in enumerate(body.parts)]
         return {"shape": {"piecewise": {"parts": parts, "tolerance": body.tolerance}}}
-    for kind, (made, names) in _SHAPES.items():
-        if type(body) is made:
-            return {"shape": {kind: dict(zip(names, body._arguments()))}}
     reason = "a function cannot be written: take one of the shapes, or a Spline through points of the curve"
     raise SceneFileError("", None, place, f"{type(body).__name__}: {reason}")
 

@@ -1,6 +1,6 @@
 //! The numbers of a scene by name: plain, or with a derivative.
 
-use super::{Built, Profile};
+use super::{Profile, Shared};
 use crate::curve::Curve;
 use crate::errors::Named;
 use linecontact::Real;
@@ -20,14 +20,9 @@ pub trait Lift: Sized {
     /// Does work inside this name: it is put before the names of all numbers in the work.
     fn inside<R>(&mut self, name: impl Display, work: impl FnOnce(&mut Self) -> R) -> R;
 
-    fn body(&mut self, py: Python<'_>, body: &Profile) -> PyResult<Built<Self::Of>>;
+    fn body(&mut self, py: Python<'_>, body: &Profile) -> PyResult<Shared<Self::Of>>;
 
-    fn curve(&self, curve: &Arc<Curve>) -> PyResult<Built<Self::Of>>;
-
-    /// Returns two numbers with one name.
-    fn pair(&mut self, name: &str, [first, last]: [f64; 2]) -> [Self::Of; 2] {
-        self.inside(name, |lift| [lift.number(0, first), lift.number(1, last)])
-    }
+    fn curve(&self, curve: &Arc<Curve>) -> PyResult<Shared<Self::Of>>;
 }
 
 /// Plain numbers. Bodies that are already built are not built again.
@@ -44,12 +39,12 @@ impl Lift for AsTheyAre {
         work(self)
     }
 
-    fn body(&mut self, _: Python<'_>, body: &Profile) -> PyResult<Built<f64>> {
+    fn body(&mut self, _: Python<'_>, body: &Profile) -> PyResult<Shared<f64>> {
         Ok(body.built.clone())
     }
 
-    fn curve(&self, curve: &Arc<Curve>) -> PyResult<Built<f64>> {
-        Ok(Built::Smooth(curve.clone()))
+    fn curve(&self, curve: &Arc<Curve>) -> PyResult<Shared<f64>> {
+        Ok(curve.clone())
     }
 }
 
@@ -91,11 +86,11 @@ impl Lift for Varied<'_> {
         found
     }
 
-    fn body(&mut self, py: Python<'_>, body: &Profile) -> PyResult<Built<Dual64>> {
-        body.recipe.build(py, self)
+    fn body(&mut self, py: Python<'_>, body: &Profile) -> PyResult<Shared<Dual64>> {
+        body.recipe.build(py, &body.steps, self)
     }
 
-    fn curve(&self, _: &Arc<Curve>) -> PyResult<Built<Dual64>> {
+    fn curve(&self, _: &Arc<Curve>) -> PyResult<Shared<Dual64>> {
         let body = self.path.trim_end_matches('.');
         Err(PyValueError::new_err(format!(
             "{body} is a Curve, of which second derivatives are not known: derivatives of a solution need \
