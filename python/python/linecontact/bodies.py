@@ -258,9 +258,9 @@ class _Shape(Body):
 
     def _made(self) -> _native.Profile:
         numbers: dict[str, float] = {}
-        for name, value in self._numbers().items():
+        for name, value in zip(self._names, self._arguments(), strict=True):
             if isinstance(value, tuple):
-                numbers |= {f"{name}.{i}": number for i, number in enumerate(value)}
+                numbers[f"{name}.0"], numbers[f"{name}.1"] = value
             else:
                 numbers[name] = value
         return _native.Profile.shape(self._kind, numbers)
