@@ -14,7 +14,7 @@
 //! (From a wide bracket to all digits; `cargo run --release --example compare_searches` counts
 //! them on the curves of this field.)
 //!
-//! All four keep the tightest sign change they have seen and never evaluate outside the
+//! All of them keep the tightest sign change they have seen and never evaluate outside the
 //! bracket. None compares with an absolute number unless told to: multiplying `x` and `f`
 //! by powers of two gives the same iterates, bit for bit, and the same counts.
 
@@ -54,19 +54,7 @@ use thiserror::Error;
 
 /// Strategy that finds a zero of a function.
 ///
-/// Usable as a trait object, so that strategies can sit side by side in one array:
-///
-/// ```
-/// use linecontact::search::{Bisection, Bracket, Brent, LimitSearch, Newton, Secant};
-///
-/// let all: [&dyn LimitSearch<f64>; 4] =
-///     [&Bisection::default(), &Secant::default(), &Brent::default(), &Newton::default()];
-/// for search in all {
-///     let root = search.find(&mut |x| x * x - 2.0, &Bracket::new(1.0, 2.0))?;
-///     assert!((root.x / 2f64.sqrt() - 1.0).abs() < 1e-15);
-/// }
-/// # Ok::<(), linecontact::search::SearchError<f64>>(())
-/// ```
+/// Usable as a trait object, so that [strategies] can sit side by side.
 ///
 /// Implement [`find`](Self::find) for a strategy of your own; override
 /// [`find_with_slope`](Self::find_with_slope) if it can use the derivative. The solver relies on
@@ -98,6 +86,29 @@ pub trait LimitSearch<T: Real>: Send + Sync {
     ) -> Result<Root<T>, SearchError<T>> {
         self.find(&mut |x| f(x).0, bracket)
     }
+}
+
+/// Returns the strategies of this module, each with its name and with these stopping criteria.
+///
+/// ```
+/// use linecontact::search::{Bracket, StoppingCriteria, strategies};
+///
+/// for (name, search) in strategies(StoppingCriteria::FULL) {
+///     let root = search.find(&mut |x| x * x - 2.0, &Bracket::new(1.0, 2.0))?;
+///     assert!((root.x / 2f64.sqrt() - 1.0).abs() < 1e-15, "{name}");
+/// }
+/// # Ok::<(), linecontact::search::SearchError<f64>>(())
+/// ```
+#[must_use]
+pub fn strategies<T: Real>(
+    tolerance: StoppingCriteria,
+) -> Vec<(&'static str, Box<dyn LimitSearch<T>>)> {
+    vec![
+        ("bisection", Box::new(Bisection { tolerance })),
+        ("secant", Box::new(Secant { tolerance })),
+        ("brent", Box::new(Brent { tolerance })),
+        ("newton", Box::new(Newton { tolerance })),
+    ]
 }
 
 /// Interval over which a function changes its sign, with known values and a guess.

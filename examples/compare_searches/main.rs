@@ -1,4 +1,4 @@
-//! Compares searches in the two places where the solver takes one: the four of the crate, and one
+//! Compares searches in the two places where the solver takes one: those of the crate, and one
 //! of this example, the Illinois method.
 //!
 //! Run with `cargo run --release --example compare_searches`. Lines that start with `#` explain the
@@ -14,7 +14,7 @@ mod scenes;
 
 use illinois::Illinois;
 use linecontact::ContactError;
-use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant};
+use linecontact::search::{LimitSearch, StoppingCriteria, strategies};
 use std::collections::BTreeMap;
 
 /// Search under its name.
@@ -22,13 +22,9 @@ type Named = (&'static str, Box<dyn LimitSearch<f64>>);
 
 /// Returns the searches to compare. One of your own is a line more.
 fn searches() -> Vec<Named> {
-    vec![
-        ("bisection", Box::<Bisection>::default()),
-        ("secant", Box::<Secant>::default()),
-        ("Brent", Box::<Brent>::default()),
-        ("Newton", Box::<Newton>::default()),
-        ("Illinois", Box::new(Illinois)),
-    ]
+    let mut all = strategies(StoppingCriteria::FULL);
+    all.push(("illinois", Box::new(Illinois)));
+    all
 }
 
 /// Counts by each search, with equal weight for every problem, and the number of failures.

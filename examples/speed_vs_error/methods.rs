@@ -6,8 +6,9 @@
 
 use super::scenes::Scene;
 use linecontact::quadrature::Quadrature;
-use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant};
+use linecontact::search::{LimitSearch, StoppingCriteria, strategies};
 use linecontact::{EdgePressure, Exponents, Interval, Midpoint, Panels};
+use std::sync::LazyLock;
 
 /// Names of the quadratures.
 pub const PANELS: &str = "panels";
@@ -23,19 +24,20 @@ pub const METHODS: [&str; 7] = [
 
 /// Name that stands for a search that is not set.
 pub const DEFAULT: &str = "default";
-pub const SEARCHES: [&str; 4] = ["bisection", "secant", "Brent", "Newton"];
+
+/// Search under its name.
+type Named = (&'static str, Box<dyn LimitSearch<f64>>);
+
+static SEARCHES: LazyLock<Vec<Named>> = LazyLock::new(|| strategies(StoppingCriteria::FULL));
+
+/// Returns the names of the searches.
+pub fn searches() -> impl Iterator<Item = &'static str> {
+    SEARCHES.iter().map(|&(name, _)| name)
+}
 
 /// Returns a search by its name; none for the default.
 pub fn search(name: &str) -> Option<&'static dyn LimitSearch<f64>> {
-    use linecontact::search::StoppingCriteria;
-    const FULL: StoppingCriteria = StoppingCriteria::FULL;
-    Some(match name {
-        "bisection" => &Bisection { tolerance: FULL },
-        "secant" => &Secant { tolerance: FULL },
-        "Brent" => &Brent { tolerance: FULL },
-        "Newton" => &Newton { tolerance: FULL },
-        _ => return None,
-    })
+    SEARCHES.iter().find(|(of, _)| *of == name).map(|(_, search)| &**search)
 }
 
 /// Way to solve a contact.
@@ -79,7 +81,7 @@ pub fn all(scene: &Scene) -> Vec<Way> {
         let rule = |segments| Midpoint { segments, extrapolations, exponents };
         ways.extend(rungs.map(|segments| midpoint(method, rule(segments))));
     }
-    let inversions = SEARCHES.into_iter().flat_map(|inversion| {
+    let inversions = searches().flat_map(|inversion| {
         let ways = [panels(1e-3), panels(1e-6), panels(0.0), {
             let rule = Midpoint { exponents: right, ..Midpoint::DEFAULT };
             midpoint("right powers ET=4", rule)
@@ -99,8 +101,7 @@ pub fn all(scene: &Scene) -> Vec<Way> {
         ways.push(Way { edge_pressure: Some(zero), ..way });
     }
     ways.extend(
-        SEARCHES
-            .into_iter()
+        searches()
             .flat_map(|limits| [1e-3, 1e-6, 0.0].map(panels).map(|way| Way { limits, ..way })),
     );
     ways

@@ -1,7 +1,7 @@
 //! The method with the fewest evaluations for an error, and the factor by which the next one needs
 //! more.
 
-use super::methods::{DEFAULT, METHODS, PANELS, SEARCHES};
+use super::methods::{DEFAULT, METHODS, PANELS, searches};
 use super::table::Row;
 
 const TARGETS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
@@ -123,11 +123,8 @@ pub fn summary(rows: &[Row]) -> String {
             true,
         ),
     ] {
-        let names: Vec<&'static str> = if of_limits {
-            [DEFAULT].into_iter().chain(SEARCHES).collect()
-        } else {
-            SEARCHES.into()
-        };
+        let default = of_limits.then_some(DEFAULT);
+        let names: Vec<&'static str> = default.into_iter().chain(searches()).collect();
         text += &format!("\n{heading}\n");
         for target in TARGETS {
             let mut race = Race::run(rows, scenes, &names, target, |row, name| {

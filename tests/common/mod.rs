@@ -6,9 +6,7 @@ pub mod paper;
 #[path = "../../benches/shared/scenes.rs"]
 pub mod speed_scenes;
 
-use linecontact::search::{
-    Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, StoppingCriteria,
-};
+use linecontact::search::{Bracket, LimitSearch, Root, SearchError};
 use linecontact::{
     Contact, Curve, CurvePoint, Flat, Interval, ParametricProfile, Piece, Piecewise, Real, Solution,
 };
@@ -149,16 +147,6 @@ impl Strategy {
     pub fn take(x: f64, f: &mut dyn FnMut(f64) -> f64, bracket: &Bracket<f64>) -> Found {
         Ok(Root { x, residual: f(x), bracket: [bracket.lo, bracket.hi], evaluations: 1 })
     }
-}
-
-/// Returns bisection, secant, Brent and Newton.
-pub fn strategies(tolerance: StoppingCriteria) -> [Box<dyn LimitSearch<f64>>; 4] {
-    [
-        Box::new(Bisection { tolerance }),
-        Box::new(Secant { tolerance }),
-        Box::new(Brent { tolerance }),
-        Box::new(Newton { tolerance }),
-    ]
 }
 
 /// Returns the contact of a body above a flat.

@@ -11,7 +11,7 @@ use formulas::{Body2, Lower3, Upper3};
 use linecontact::autodiff::Autodiff;
 use linecontact::autodiff::num_dual::{Derivative, Dual64, DualSVec64, HyperDual64};
 use linecontact::reference::{ClosedForm, Ellipse, Hertz};
-use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant};
+use linecontact::search::{Brent, StoppingCriteria, strategies};
 use linecontact::{
     Contact, Control, Cost, Curve, CurvePoint, Edge, EdgePressure, Flat, Midpoint,
     ParametricProfile, Piecewise, Real, Solution, Solver,
@@ -126,12 +126,7 @@ fn closed_forms() {
 #[test]
 fn every_way_to_the_limits() {
     let kappa = seeded(KAPPA);
-    let searches: [(&str, &dyn LimitSearch<Dual64>); 4] = [
-        ("bisection", &Bisection::default()),
-        ("secant", &Secant::default()),
-        ("Brent", &Brent::default()),
-        ("Newton", &Newton::default()),
-    ];
+    let searches = strategies(StoppingCriteria::FULL);
     let names = ["Hertz", "wedge 0.3, 0.7", "radii 1, 2.5", "flat punch on one edge", "JKR 0.4"];
     let forms = forms_of(&seeded).into_iter().filter(|form| names.contains(&&*form.name));
     for Form { name, form, reach } in forms {
@@ -139,8 +134,8 @@ fn every_way_to_the_limits() {
         let [left, right] = form.edges();
         let contact = Contact::new(&Flat, &body).unwrap().kappa(kappa).edges(left, right);
         let load = form.load(kappa);
-        for (search_name, search) in searches {
-            let by_panels = contact.clone().limit_search(search).inversion(search);
+        for (search_name, search) in &searches {
+            let by_panels = contact.clone().limit_search(&**search).inversion(&**search);
             let by_rule = by_panels.clone().quadrature(&Midpoint::DEFAULT);
             for (rule, contact) in [("panels", &by_panels), ("midpoint", &by_rule)] {
                 let name = format!("{name}, {search_name}, {rule}");

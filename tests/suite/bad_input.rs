@@ -13,10 +13,10 @@ mod profiles;
 mod scene;
 mod searches;
 
-use common::{Profile, by_cubic, power, strategies};
+use common::{Profile, by_cubic, power};
 use linecontact::profile::{Placed, Placement};
 use linecontact::quadrature::{Integrator, LoadCase, Moments, Quadrature};
-use linecontact::search::{Bracket, Brent, Root, SearchError, StoppingCriteria};
+use linecontact::search::{Bracket, Brent, Root, SearchError, StoppingCriteria, strategies};
 use linecontact::stress::Stress;
 use linecontact::{
     Body, Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge, EdgePressure, Estimate,

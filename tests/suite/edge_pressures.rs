@@ -1,8 +1,8 @@
 //! Given pressures at given distances from the edges: Eq. (6) of the paper.
 #![allow(missing_docs)]
 
-use crate::common::{self, NanSafe, assert_close, paper, parabola, reference, strategies};
-use linecontact::search::StoppingCriteria;
+use crate::common::{self, NanSafe, assert_close, paper, parabola, reference};
+use linecontact::search::{StoppingCriteria, strategies};
 use linecontact::{
     Contact, ContactError, Control, EdgePressure, Exponents, Flat, Interval, Midpoint, SolveError,
 };
@@ -22,13 +22,13 @@ fn edge_pressures_of_the_exact_solution_give_its_limits() {
         tolerance_b: 1e-7,
     };
     let rule = Midpoint { segments: 512, extrapolations: 4, exponents: Exponents::HalfInteger };
-    let strategies = strategies(StoppingCriteria::FULL);
     let starts = [(0.6, 1.0), (6.0, 10.0), (0.06, 0.1), (-0.5, 3.0)];
-    for (strategy, (b, a)) in strategies.iter().zip(starts) {
+    let starts = starts.into_iter().cycle();
+    for ((name, strategy), (b, a)) in strategies(StoppingCriteria::FULL).into_iter().zip(starts) {
         let contact = Contact::new(&*example.lower, &*example.upper).unwrap().kappa(PI / 2.0);
-        let contact = contact.edge_pressure(wanted).quadrature(&rule).limit_search(&**strategy);
+        let contact = contact.edge_pressure(wanted).quadrature(&rule).limit_search(&*strategy);
         let contact = contact.start(Interval { left: -b, right: a });
-        let solution = contact.solve(Control::Load(example.c / PI)).unwrap();
+        let solution = contact.solve(Control::Load(example.c / PI)).expect(name);
         assert_close(solution.a(), 1.0, 1e-7);
         assert_close(solution.b(), 0.6, 1e-7);
         // The condition itself, as a user would check it.

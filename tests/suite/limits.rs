@@ -4,8 +4,8 @@
 use crate::common;
 
 use approx::assert_relative_eq;
-use common::{assert_close, graph, join, on_flat, parabola, reference, scenes, strategies};
-use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant, StoppingCriteria};
+use common::{assert_close, graph, join, on_flat, parabola, reference, scenes};
+use linecontact::search::{StoppingCriteria, strategies};
 use linecontact::{Contact, Control, Curve, CurvePoint, Flat, Interval};
 use std::f64::consts::PI;
 
@@ -42,7 +42,7 @@ fn every_strategy_serves_for_either_search() {
     let strategies = strategies(StoppingCriteria::FULL);
     for scene in scenes() {
         let want = reference(scene.name);
-        for strategy in &strategies {
+        for (_, strategy) in &strategies {
             let strategy = &**strategy;
             for contact in
                 [scene.contact().limit_search(strategy), scene.contact().inversion(strategy)]
@@ -72,11 +72,9 @@ fn the_scale_has_two_names() {
 fn single_precision() {
     let body =
         Curve::new([-2.0f32, 2.0], |k: f32| CurvePoint { x: k, y: k * k, dx: 1.0, dy: 2.0 * k });
-    let strategies: [&dyn LimitSearch<f32>; 4] =
-        [&Bisection::default(), &Secant::default(), &Brent::default(), &Newton::default()];
-    for strategy in strategies {
+    for (_, strategy) in strategies(StoppingCriteria::FULL) {
         let contact =
-            Contact::new(&Flat, &body).unwrap().limit_search(strategy).inversion(strategy);
+            Contact::new(&Flat, &body).unwrap().limit_search(&*strategy).inversion(&*strategy);
         let solution = contact.solve(Control::Load(0.25)).unwrap();
         assert_relative_eq!(solution.a(), 0.5, epsilon = 0.0, max_relative = 1e-6);
         assert_relative_eq!(solution.b(), 0.5, epsilon = 0.0, max_relative = 1e-6);

@@ -7,8 +7,8 @@ use crate::forms::KAPPA;
 use crate::{common, kept::counts_agree};
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::{assert_close, graph, strategies};
-use linecontact::search::{Brent, StoppingCriteria};
+use common::{assert_close, graph};
+use linecontact::search::{Brent, StoppingCriteria, strategies};
 use linecontact::{
     Contact, ContactError, Control, Edge, EdgePressure, Exponents, Flat, Interval, Midpoint,
     SolveError,
@@ -30,24 +30,55 @@ fn first_contact(Quadratic([g0, g1, g2]): Quadratic) -> f64 {
 const RULE: Midpoint =
     Midpoint { segments: 32, extrapolations: 2, exponents: Exponents::HalfInteger };
 
-/// Asserts the kept evaluation counts: rows for bisection, secant, Brent and Newton.
-fn check<const N: usize>(kept: &[[usize; 4]; N], found: &[[usize; 4]; N]) {
-    let all = kept.as_flattened().iter().zip(found.as_flattened());
-    let same = all.into_iter().all(|(&kept, &found)| counts_agree(kept as f64, found as f64));
-    assert!(same, "found {found:?}");
+/// Evaluation counts of a search, in the tests below.
+struct Counts {
+    search: &'static str,
+    edges: [usize; 8],
+    far: [usize; 3],
+    not_convex: [usize; 6],
+    pressures: [usize; 4],
 }
 
-#[rustfmt::skip]
-const EDGES: [[usize; 4]; 8] = [
-    [19912, 2723, 2716, 2723],
-    [4948, 1005, 905, 966],
-    [4892, 997, 932, 965],
-    [18811, 2857, 2732, 2920],
-    [22980, 2802, 2560, 2801],
-    [18589, 2716, 2657, 2656],
-    [5040, 1030, 999, 1000],
-    [4929, 992, 930, 992],
+const KEPT: [Counts; 4] = [
+    Counts {
+        search: "bisection",
+        edges: [19912, 4948, 4892, 18811, 22980, 18589, 5040, 4929],
+        far: [5092, 4286, 27292],
+        not_convex: [12768, 17759, 19712, 20859, 23401, 0],
+        pressures: [13718, 15796, 13280, 15048],
+    },
+    Counts {
+        search: "secant",
+        edges: [2723, 1005, 997, 2857, 2802, 2716, 1030, 992],
+        far: [659, 659, 4597],
+        not_convex: [2414, 2693, 2972, 3716, 4491, 0],
+        pressures: [2131, 2590, 2215, 2859],
+    },
+    Counts {
+        search: "brent",
+        edges: [2716, 905, 932, 2732, 2560, 2657, 999, 930],
+        far: [690, 597, 3832],
+        not_convex: [2259, 2600, 2724, 3282, 4212, 0],
+        pressures: [2132, 2590, 2216, 2564],
+    },
+    Counts {
+        search: "newton",
+        edges: [2723, 966, 965, 2920, 2801, 2656, 1000, 992],
+        far: [659, 659, 4597],
+        not_convex: [2414, 2724, 3127, 3561, 4522, 0],
+        pressures: [2131, 2591, 2215, 2859],
+    },
 ];
+
+/// Asserts that the counts found of each search are those kept of it.
+fn check<const N: usize>(kept: fn(&Counts) -> [usize; N], found: &[(&str, [usize; N])]) {
+    let kept = KEPT.each_ref().map(|of| (of.search, kept(of)));
+    let counts = |all: &[(_, [usize; N])]| all.iter().flat_map(|&(_, of)| of).collect::<Vec<_>>();
+    let agree = |(&kept, &found): (&usize, &usize)| counts_agree(kept as f64, found as f64);
+    let same_searches = kept.iter().map(|(of, _)| of).eq(found.iter().map(|(of, _)| of));
+    let same = same_searches && counts(&kept).iter().zip(&counts(found)).all(agree);
+    assert!(same, "kept {kept:?}\nfound {found:?}");
+}
 
 #[test]
 fn every_pair_of_edges() {
@@ -63,12 +94,13 @@ fn every_pair_of_edges() {
         [left, Edge::Adhesive(WORK)],
         [Edge::Adhesive(WORK), right],
     ];
-    let mut found = [[0; 4]; 8];
-    for (pair, counts) in pairs.into_iter().zip(&mut found) {
-        for (strategy, count) in strategies(StoppingCriteria::FULL).iter().zip(counts) {
+    let mut found = Vec::new();
+    for (search, strategy) in strategies(StoppingCriteria::FULL) {
+        let mut counts = [0; 8];
+        for (pair, count) in pairs.into_iter().zip(&mut counts) {
             let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
             let contact =
-                contact.edges(pair[0], pair[1]).limit_search(&**strategy).single_interval(true);
+                contact.edges(pair[0], pair[1]).limit_search(&*strategy).single_interval(true);
             let started = contact.clone().start(Interval { left: -0.2, right: 0.5 });
             for (contact, load) in [
                 (&contact, Control::Load(0.2)),
@@ -95,28 +127,23 @@ fn every_pair_of_edges() {
                 *count += other.cost().evaluations;
             }
         }
+        found.push((search, counts));
     }
-    check(&EDGES, &found);
+    check(|kept| kept.edges, &found);
 }
-
-#[rustfmt::skip]
-const FAR: [[usize; 4]; 3] = [
-    [5092, 659, 690, 659],
-    [4286, 659, 597, 659],
-    [27292, 4597, 3832, 4597],
-];
 
 #[test]
 fn far_from_the_origin() {
-    let mut found = [[0; 4]; 3];
-    for (place, counts) in [1e3, -1e6, 1e9].into_iter().zip(&mut found) {
-        let body = graph(place - 0.5, place + 1.1, move |x| {
-            let (u, Quadratic([g0, g1, g2])) = (x - place, BENT);
-            [u * (g0 + u * (g1 / 2.0 + u * g2 / 3.0)), g0 + u * (g1 + u * g2)]
-        });
-        for (strategy, count) in strategies(StoppingCriteria::FULL).iter().zip(counts) {
+    let mut found = Vec::new();
+    for (search, strategy) in strategies(StoppingCriteria::FULL) {
+        let mut counts = [0; 3];
+        for (place, count) in [1e3, -1e6, 1e9].into_iter().zip(&mut counts) {
+            let body = graph(place - 0.5, place + 1.1, move |x| {
+                let (u, Quadratic([g0, g1, g2])) = (x - place, BENT);
+                [u * (g0 + u * (g1 / 2.0 + u * g2 / 3.0)), g0 + u * (g1 + u * g2)]
+            });
             let contact =
-                Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).limit_search(&**strategy);
+                Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).limit_search(&*strategy);
             let solution = contact.solve(Control::Load(0.2)).unwrap();
             let Interval { left, right } = solution.hull();
             let on = Interval { left: left - place, right: right - place };
@@ -128,19 +155,10 @@ fn far_from_the_origin() {
             assert_abs_diff_eq!(other.a(), right, epsilon = 4.0 * rounding);
             *count += other.cost().evaluations;
         }
+        found.push((search, counts));
     }
-    check(&FAR, &found);
+    check(|kept| kept.far, &found);
 }
-
-#[rustfmt::skip]
-const NOT_CONVEX: [[usize; 4]; 6] = [
-    [12768, 2414, 2259, 2414],
-    [17759, 2693, 2600, 2724],
-    [19712, 2972, 2724, 3127],
-    [20859, 3716, 3282, 3561],
-    [23401, 4491, 4212, 4522],
-    [0, 0, 0, 0],
-];
 
 #[test]
 fn up_to_the_most_that_a_gap_bears() {
@@ -151,14 +169,15 @@ fn up_to_the_most_that_a_gap_bears() {
         let u = x - place;
         [u * u / 2.0 + u.powi(3), u + 3.0 * u * u]
     });
-    let mut found = [[0; 4]; 6];
+    let mut found = Vec::new();
     let loads = [1e-6, 1e-3, 5e-3, 0.01, 0.0106, 0.02];
-    for (load, counts) in loads.into_iter().zip(&mut found) {
-        for (strategy, count) in strategies(StoppingCriteria::FULL).iter().zip(counts) {
+    for (search, strategy) in strategies(StoppingCriteria::FULL) {
+        let mut counts = [0; 6];
+        for (load, count) in loads.into_iter().zip(&mut counts) {
             for half_width in [0.25, 1e-3, 0.15] {
                 let start = Interval { left: place - 1.01 * half_width, right: place + half_width };
                 let contact =
-                    Contact::new(&Flat, &*body).unwrap().limit_search(&**strategy).start(start);
+                    Contact::new(&Flat, &*body).unwrap().limit_search(&*strategy).start(start);
                 let contact = contact.single_interval(true);
                 let by_rule = contact.clone().quadrature(&RULE);
                 let other = by_rule.solve(Control::Load(load));
@@ -178,8 +197,9 @@ fn up_to_the_most_that_a_gap_bears() {
                 }
             }
         }
+        found.push((search, counts));
     }
-    check(&NOT_CONVEX, &found);
+    check(|kept| kept.not_convex, &found);
 }
 
 #[test]
@@ -188,7 +208,7 @@ fn a_width_beyond_the_bodies_names_the_end() {
         let (body, origin) = (bent.body(reach[0], reach[1]), first_contact(bent));
         let contact = Contact::new(&Flat, &*body).unwrap();
         for half_width in [0.79, 0.81, 5.0] {
-            for strategy in strategies(StoppingCriteria::FULL) {
+            for (_, strategy) in strategies(StoppingCriteria::FULL) {
                 let contact = contact.clone().limit_search(&*strategy);
                 let error = contact.solve(Control::HalfWidth(half_width)).unwrap_err();
                 let ContactError::Solve(SolveError::HalfWidthTooLarge {
@@ -238,8 +258,10 @@ fn bodies_that_are_too_short_carry_so_much() {
             let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA);
             let contact = contact.edges(edges[0], edges[1]);
             let searches = strategies(StoppingCriteria::FULL);
-            let mut scenes: Vec<_> =
-                searches.iter().map(|search| contact.clone().limit_search(&**search)).collect();
+            let mut scenes: Vec<_> = searches
+                .iter()
+                .map(|(_, search)| contact.clone().limit_search(&**search))
+                .collect();
             scenes.push(contact);
             for contact in scenes {
                 let error = contact.solve(Control::Load(load)).unwrap_err();
@@ -266,7 +288,7 @@ fn a_sloppy_search_for_the_place_shows() {
     let l = 0.3;
     let exact = contact.solve(Control::HalfWidth(l)).unwrap().hull().centre();
     for relative in [0.3, 0.1, 1e-2, 1e-4, 1e-8] {
-        for strategy in strategies(StoppingCriteria::relative(relative)) {
+        for (_, strategy) in strategies(StoppingCriteria::relative(relative)) {
             let contact = contact.clone().limit_search(&*strategy);
             let solution = contact.solve(Control::HalfWidth(l)).unwrap();
             let error = (solution.hull().centre() - exact).abs() / l;
@@ -276,14 +298,6 @@ fn a_sloppy_search_for_the_place_shows() {
         }
     }
 }
-
-#[rustfmt::skip]
-const PRESSURES: [[usize; 4]; 4] = [
-    [13718, 2131, 2132, 2131],
-    [15796, 2590, 2590, 2591],
-    [13280, 2215, 2216, 2215],
-    [15048, 2859, 2564, 2859],
-];
 
 #[test]
 fn pressures_wanted_at_a_distance() {
@@ -298,11 +312,12 @@ fn pressures_wanted_at_a_distance() {
     let edge_pressure =
         EdgePressure { at_a, at_b, distance_a, distance_b, tolerance_a, tolerance_b };
     let starts = [None, Some([0.29, 0.31]), Some([-0.5, 1.3]), Some([0.4, 0.6])];
-    let mut found = [[0; 4]; 4];
-    for (start, counts) in starts.into_iter().zip(&mut found) {
-        for (strategy, count) in strategies(StoppingCriteria::FULL).iter().zip(counts) {
+    let mut found = Vec::new();
+    for (search, strategy) in strategies(StoppingCriteria::FULL) {
+        let mut counts = [0; 4];
+        for (start, count) in starts.into_iter().zip(&mut counts) {
             let contact = Contact::new(&Flat, &*body).unwrap().kappa(KAPPA).quadrature(&RULE);
-            let mut contact = contact.edge_pressure(edge_pressure).limit_search(&**strategy);
+            let mut contact = contact.edge_pressure(edge_pressure).limit_search(&*strategy);
             if let Some([left, right]) = start {
                 contact = contact.start(Interval { left, right });
             }
@@ -316,8 +331,9 @@ fn pressures_wanted_at_a_distance() {
             assert_abs_diff_eq!(got[..], [at_a, at_b][..], epsilon = 1e-9);
             *count += solution.cost().evaluations;
         }
+        found.push((search, counts));
     }
-    check(&PRESSURES, &found);
+    check(|kept| kept.pressures, &found);
 }
 
 #[test]
@@ -375,7 +391,7 @@ fn edges_take_the_place_of_edge_pressures() {
 #[test]
 fn forces_beyond_any_number_are_an_overflow() {
     let body = graph(-1.0, 1.0, |x| [1e200 * x * x / 2.0, 1e200 * x]);
-    for strategy in strategies(StoppingCriteria::FULL) {
+    for (_, strategy) in strategies(StoppingCriteria::FULL) {
         let contact = Contact::new(&Flat, &*body).unwrap().kappa(1e200).limit_search(&*strategy);
         for load in [1e-3, 1e300] {
             let error = contact.solve(Control::Load(load)).unwrap_err();

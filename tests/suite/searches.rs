@@ -1,14 +1,11 @@
-//! The four searches as general root finders.
+//! The searches as general root finders.
 #![allow(missing_docs)]
 
-use crate::common::strategies;
 use linecontact::search::{
-    Bisection, Bracket, Brent, LimitSearch, Newton, Root, SearchError, Secant, StoppingCriteria,
+    Bracket, LimitSearch, Newton, Root, SearchError, StoppingCriteria, strategies,
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-
-const NAMES: [&str; 4] = ["bisection", "secant", "Brent", "Newton"];
 
 /// Function with its slope, a bracket, and its root.
 struct Case {
@@ -51,9 +48,9 @@ fn run(
 
 #[test]
 fn roots_are_found_to_the_last_digits() {
-    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (name, search) in strategies(StoppingCriteria::FULL) {
         for case in cases() {
-            let root = run(&**search, &case, 1.0, 1.0).unwrap();
+            let root = run(&*search, &case, 1.0, 1.0).unwrap();
             let what = format!("{name}, {}: {root:?}", case.name);
             assert!((root.x / case.root - 1.0).abs() <= 2e-15, "{what}");
             let [lo, hi] = root.bracket;
@@ -65,13 +62,13 @@ fn roots_are_found_to_the_last_digits() {
 
 #[test]
 fn powers_of_two_change_nothing() {
-    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (name, search) in strategies(StoppingCriteria::FULL) {
         for case in cases() {
-            let plain = run(&**search, &case, 1.0, 1.0).unwrap();
+            let plain = run(&*search, &case, 1.0, 1.0).unwrap();
             for (x, y) in [(-30, 90), (40, -200), (-200, 3), (0, 700)]
                 .map(|(i, j)| (2f64.powi(i), 2f64.powi(j)))
             {
-                let scaled = run(&**search, &case, x, y).unwrap();
+                let scaled = run(&*search, &case, x, y).unwrap();
                 let what = format!("{name}, {}, x {x:e}, f {y:e}", case.name);
                 assert_eq!(scaled.x, plain.x * x, "{what}");
                 assert_eq!(scaled.residual, plain.residual * y, "{what}");
@@ -84,7 +81,7 @@ fn powers_of_two_change_nothing() {
 
 #[test]
 fn evaluations_are_counted_and_none_is_made_twice() {
-    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (name, search) in strategies(StoppingCriteria::FULL) {
         for case in cases() {
             let mut seen = Vec::new();
             let mut f = |x: f64| {
@@ -107,14 +104,14 @@ fn known_ends_and_a_guess_save_evaluations() {
     let wide = Bracket::new(-3.0, 3.0);
     let known = wide.values((-3f64).exp() - 2.0, 3f64.exp() - 2.0);
     let close = known.guess(2f64.ln() + 1e-5);
-    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (name, search) in strategies(StoppingCriteria::FULL) {
         let count = |f: &mut dyn FnMut(f64) -> (f64, f64), bracket| {
             let root = search.find_with_slope(f, bracket).unwrap();
             assert!((root.x / 2f64.ln() - 1.0).abs() < 1e-15, "{name}: {root:?}");
             root.evaluations
         };
         assert_eq!(count(&mut f, &wide), count(&mut f, &known) + 2, "{name}");
-        if name == "Newton" {
+        if name == "newton" {
             assert!(count(&mut f, &close) <= 3, "{}", count(&mut f, &close));
         }
     }
@@ -123,18 +120,19 @@ fn known_ends_and_a_guess_save_evaluations() {
 #[test]
 fn typical_costs() {
     // Counts promised by the table in the module's doc.
-    let most = [60, 14, 14, 9];
-    for (i, search) in strategies(StoppingCriteria::FULL).iter().enumerate() {
-        let cost = |case: &Case| run(&**search, case, 1.0, 1.0).unwrap().evaluations;
+    let most = [("bisection", 60), ("secant", 14), ("brent", 14), ("newton", 9)];
+    for (name, search) in strategies(StoppingCriteria::FULL) {
+        let cost = |case: &Case| run(&*search, case, 1.0, 1.0).unwrap().evaluations;
         let simple: Vec<Case> = cases().into_iter().take(3).filter(|c| c.hi < 10.0).collect();
-        assert!(simple.iter().all(|case| cost(case) <= most[i]), "{}", NAMES[i]);
+        let (_, most) = most.iter().find(|(of, _)| *of == name).expect(name);
+        assert!(simple.iter().all(|case| cost(case) <= *most), "{name}");
     }
 }
 
 #[test]
 fn multiple_roots_are_slow_but_right() {
     let tolerance = StoppingCriteria::FULL;
-    for (search, name) in strategies(tolerance).iter().zip(NAMES) {
+    for (name, search) in strategies(tolerance) {
         let mut f = |x: f64| ((x - 1.0).powi(9), 9.0 * (x - 1.0).powi(8));
         let root = search.find_with_slope(&mut f, &Bracket::new(-1.0, 4.0)).unwrap();
         assert!((root.x - 1.0).abs() < 2e-14, "{name}: {root:?}");
@@ -147,12 +145,12 @@ fn noise_ends_a_search() {
     let f = |k: f64| 12.0 * k.cos() - 5.0 * k.sin() - 12.0;
     let slope = |k: f64| -12.0 * k.sin() - 5.0 * k.cos();
     for target in [1e-3, -4e-4, 3e-16, -1e-9] {
-        for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
+        for (name, search) in strategies(StoppingCriteria::FULL) {
             let mut g = |k: f64| (f(k) - target, slope(k));
             let bracket = Bracket::new(-0.5, 0.5).guess(-target / 5.0 + 1e-5);
             let root = search.find_with_slope(&mut g, &bracket).unwrap();
             assert!(root.residual.abs() < 4e-15, "{name}: {root:?}");
-            assert!(name != "Newton" || root.evaluations <= 8, "{name}: {root:?}");
+            assert!(name != "newton" || root.evaluations <= 8, "{name}: {root:?}");
         }
     }
 }
@@ -167,17 +165,16 @@ fn tolerances_are_kept() {
         StoppingCriteria::relative(1e-3),
         StoppingCriteria { residual: 1e-3, ..StoppingCriteria::FULL },
     ] {
-        for (search, name) in strategies(tolerance).iter().zip(NAMES) {
+        let full = strategies(StoppingCriteria::FULL);
+        for ((name, search), (_, full)) in strategies(tolerance).into_iter().zip(full) {
             let root = search.find_with_slope(&mut f, &bracket).unwrap();
             assert!(error(root) < 1.5e-3, "{name}: {root:?}");
-            let full = strategies(StoppingCriteria::FULL);
-            let index = NAMES.iter().position(|n| *n == name).unwrap();
-            let most = full[index].find_with_slope(&mut f, &bracket).unwrap();
+            let most = full.find_with_slope(&mut f, &bracket).unwrap();
             assert!(root.evaluations < most.evaluations, "{name}: nothing saved");
         }
     }
     // A tolerance below the floating-point resolution is raised to it.
-    for (search, name) in strategies(StoppingCriteria::relative(1e-300)).iter().zip(NAMES) {
+    for (name, search) in strategies(StoppingCriteria::relative(1e-300)) {
         let root = search.find_with_slope(&mut f, &bracket).unwrap();
         assert!(error(root) < 1e-15, "{name}");
     }
@@ -185,7 +182,7 @@ fn tolerances_are_kept() {
 
 #[test]
 fn an_end_that_is_the_root_is_found_at_once() {
-    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (name, search) in strategies(StoppingCriteria::FULL) {
         for bracket in [Bracket::new(2.0, 5.0), Bracket::new(-1.0, 2.0), Bracket::new(2.0, 2.0)] {
             let root = search.find(&mut |x| x - 2.0, &bracket).unwrap();
             assert_eq!((root.x, root.residual, root.bracket), (2.0, 0.0, [2.0, 2.0]), "{name}");
@@ -196,7 +193,7 @@ fn an_end_that_is_the_root_is_found_at_once() {
 
 #[test]
 fn an_infinite_value_at_an_end_is_named() {
-    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
+    for (name, search) in strategies(StoppingCriteria::FULL) {
         let infinite = search.find(&mut |x| 1.0 / x, &Bracket::new(0.0, 1.0));
         assert!(matches!(infinite, Err(SearchError::NotFinite { x: 0.0, .. })), "{name}");
     }
@@ -206,7 +203,7 @@ fn an_infinite_value_at_an_end_is_named() {
 fn a_spent_budget_carries_the_best_point() {
     for budget in [3, 5, 6] {
         let tolerance = StoppingCriteria { max_evaluations: budget, ..StoppingCriteria::FULL };
-        for (search, name) in strategies(tolerance).iter().zip(NAMES) {
+        for (name, search) in strategies(tolerance) {
             let mut count = 0;
             let mut f = |x: f64| {
                 count += 1;
@@ -230,9 +227,7 @@ fn errors_travel() {
 
 #[test]
 fn single_precision() {
-    let all: [&dyn LimitSearch<f32>; 4] =
-        [&Bisection::default(), &Secant::default(), &Brent::default(), &Newton::default()];
-    for (search, name) in all.into_iter().zip(NAMES) {
+    for (name, search) in strategies(StoppingCriteria::FULL) {
         let mut f = |x: f32| (x * x - 2.0, 2.0 * x);
         let root = search.find_with_slope(&mut f, &Bracket::new(0.5, 9.0)).unwrap();
         assert!((root.x / 2f32.sqrt() - 1.0).abs() < 4e-7, "{name}: {root:?}");
@@ -255,7 +250,7 @@ proptest! {
             let u = x - root;
             (u + bend * u.powi(3), 1.0 + 3.0 * bend * u * u)
         };
-        for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
+        for (name, search) in strategies(StoppingCriteria::FULL) {
             let bracket = Bracket::new(root - left, root + right);
             let found = search.find_with_slope(&mut |x| f(x), &bracket).unwrap();
             prop_assert!((found.x - root).abs() <= 1e-14 * root.abs(), "{}: {:?}", name, found);
@@ -266,7 +261,7 @@ proptest! {
     /// For any values of the function, a search ends with a root or an error.
     #[test]
     fn nonsense_ends(values in prop::collection::vec(prop::num::f64::ANY, 1..20)) {
-        for search in strategies(StoppingCriteria::FULL) {
+        for (_, search) in strategies(StoppingCriteria::FULL) {
             let mut i = 0;
             let mut next = |_| { i += 1; values[i % values.len()] };
             let found = search.find(&mut next, &Bracket::new(-1.0, 1.5));
@@ -299,8 +294,8 @@ fn ends_of_any_size_are_no_trap() {
     // The length of the first bracket overflows; the second goes down to the smallest number; in
     // the third the chord points to the flat end.
     let tiny = f64::MIN_POSITIVE / 4.0;
-    for (search, name) in strategies(StoppingCriteria::FULL).iter().zip(NAMES) {
-        let found = search.find(&mut |x| x - 1.0, &Bracket::new(-1.7e308, 1.7e308)).unwrap();
+    for (name, search) in strategies(StoppingCriteria::FULL) {
+        let found = search.find(&mut |x: f64| x - 1.0, &Bracket::new(-1.7e308, 1.7e308)).unwrap();
         assert!((found.x - 1.0).abs() < 1e-15, "{name}: {found:?}");
         let mut step = |x: f64| if x < 0.0 { -1.0 } else { 1.0 + x };
         let found = search.find(&mut step, &Bracket::new(-tiny, 3.0 * tiny)).unwrap();

@@ -11,13 +11,12 @@ fn budgets_of_searches() {
     let inverted = body();
     let rule = Midpoint::default();
     for max_evaluations in [0, 1, 2] {
-        let [one, two, three, four] =
-            strategies(StoppingCriteria { max_evaluations, ..StoppingCriteria::FULL });
-        for (i, strategy) in [&one, &two, &three, &four].into_iter().enumerate() {
+        let tolerance = StoppingCriteria { max_evaluations, ..StoppingCriteria::FULL };
+        for (by, strategy) in strategies(tolerance) {
             let contact =
-                Contact::new(&Flat, &*inverted).unwrap().inversion(&**strategy).quadrature(&rule);
+                Contact::new(&Flat, &*inverted).unwrap().inversion(&*strategy).quadrature(&rule);
             let contact = contact.single_interval(true);
-            let name = format!("inversion {i}, {max_evaluations}");
+            let name = format!("inversion by {by}, {max_evaluations}");
             table.row(
                 &name,
                 40,
@@ -28,10 +27,10 @@ fn budgets_of_searches() {
                     }) if best.evaluations <= max_evaluations && x.abs() < 1.2 && best.x.abs() <= 1.0)
                 },
             );
-            let contact = Contact::new(&Flat, &*upper).unwrap().limit_search(&**strategy);
+            let contact = Contact::new(&Flat, &*upper).unwrap().limit_search(&*strategy);
             let contact = contact.single_interval(true);
             table.outcome(
-                &format!("search {i}, {max_evaluations}"),
+                &format!("search by {by}, {max_evaluations}"),
                 0,
                 || Ok(contact.solve(load).map(|_| ())?),
                 |outcome| {

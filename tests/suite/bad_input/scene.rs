@@ -207,11 +207,10 @@ fn edge_pressures_rules_and_tolerances() {
         ] {
             let given = [tolerance.absolute, tolerance.relative, tolerance.residual];
             let bad = given.into_iter().find(|&v| v != 0.0).unwrap();
-            let [one, two, three, four] = strategies(tolerance);
-            for strategy in [&one, &two, &three, &four] {
-                let inverting = contact.clone().inversion(&**strategy).quadrature(&rule);
+            for (name, strategy) in strategies(tolerance) {
+                let inverting = contact.clone().inversion(&*strategy).quadrature(&rule);
                 table.solve(
-                    &format!("inversion by {tolerance:?}"),
+                    &format!("inversion by {name}, {tolerance:?}"),
                     200,
                     &inverting,
                     load,
@@ -221,8 +220,9 @@ fn edge_pressures_rules_and_tolerances() {
                         }) if same(*value, bad))
                     },
                 );
-                let searching = contact.clone().limit_search(&**strategy);
-                table.solve(&format!("search by {tolerance:?}"), 200, &searching, load, |wrong| {
+                let searching = contact.clone().limit_search(&*strategy);
+                let name = format!("search by {name}, {tolerance:?}");
+                table.solve(&name, 200, &searching, load, |wrong| {
                     matches!(wrong, Wrong::Solve(SolveError::LimitSearch {
                         best, source: SearchError::Tolerance { value },
                     }) if same(*value, bad) && best.left < best.right)

@@ -6,7 +6,7 @@ use super::*;
 fn searches() {
     let mut table = Table::new("LimitSearch::find");
     let nan_free = |root: &Root<f64>| root.x.is_finite() && root.residual.is_finite();
-    for (i, search) in strategies(StoppingCriteria::FULL).iter().enumerate() {
+    for (i, search) in strategies(StoppingCriteria::FULL) {
         let calls = Cell::new(0);
         let mut run =
             |name: &str,
