@@ -1,6 +1,5 @@
 //! Brent's method and the secant method: the `roots` crate behind our own bookkeeping. The crate
 //! does not show outside this file.
-//! this file.
 //!
 //! Taken as it is, `roots` 0.0.8 evaluates known points again, has one absolute epsilon for `x` and
 //! `f`, tests signs by a product that can underflow, cannot report NaN, and returns errors without
