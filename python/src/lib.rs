@@ -29,7 +29,7 @@ mod _native {
     #[pymodule_export]
     use super::profile::Profile;
     #[pymodule_export]
-    use super::scene::{Scene, Solver, SpringTable, contact_modulus};
+    use super::scene::{Scene, Solver, SpringTable, contact_modulus, searches};
     #[pymodule_export]
     use super::solution::{LoadRates, PartialSlip, Solution};
     #[pymodule_export]

@@ -5,7 +5,7 @@ use crate::control::{Choice, Prescribed, ReferenceRow, control, none_such, refer
 use crate::profile::{AsTheyAre, Lift, Profile};
 use crate::solution::{PartialSlip, Solution};
 use linecontact::quadrature::Quadrature;
-use linecontact::search::{Bisection, Brent, LimitSearch, Newton, Secant, StoppingCriteria};
+use linecontact::search::{LimitSearch, StoppingCriteria, strategies};
 use linecontact::{
     Contact, ContactError, Edge, EdgePressure, Exponents, Interval, Material, Midpoint, Panels,
     PlaneState, Real, Shear,
@@ -14,17 +14,16 @@ use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use std::any::Any;
 use std::collections::HashMap;
-use std::fmt::Debug;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 type Kept = HashMap<String, &'static (dyn Any + Send + Sync)>;
 
 /// Makes a setting permanent, as a contact that is kept borrows its settings. Each is made once,
 /// for any number of contacts.
-fn kept<S: Debug + Send + Sync + 'static>(setting: S) -> &'static S {
+fn kept<S: Send + Sync + 'static>(choice: &Choice, setting: S) -> &'static S {
     static ALL: LazyLock<Mutex<Kept>> = LazyLock::new(Mutex::default);
     let mut all = ALL.lock().unwrap_or_else(PoisonError::into_inner);
-    let name = format!("{} {setting:?}", std::any::type_name::<S>());
+    let name = format!("{} {choice:?}", std::any::type_name::<S>());
     if let Some(found) = all.get(&name).and_then(|kept| kept.downcast_ref()) {
         return found;
     }
@@ -40,22 +39,25 @@ fn search<T: Real>(choice: &Choice) -> PyResult<&'static dyn LimitSearch<T>> {
     // A float from an int of Python.
     let max_evaluations = evaluations as usize;
     let tolerance = StoppingCriteria { absolute, relative, residual, max_evaluations };
-    Ok(match choice.0.as_str() {
-        "bisection" => kept(Bisection { tolerance }),
-        "secant" => kept(Secant { tolerance }),
-        "brent" => kept(Brent { tolerance }),
-        "newton" => kept(Newton { tolerance }),
-        _ => return none_such("search", choice),
-    })
+    match strategies::<T>(tolerance).into_iter().find(|(name, _)| *name == choice.0) {
+        Some((_, search)) => Ok(&**kept(choice, search)),
+        None => none_such("search", choice),
+    }
+}
+
+/// Returns the names of the searches.
+#[pyfunction]
+pub fn searches() -> Vec<&'static str> {
+    strategies::<f64>(StoppingCriteria::FULL).into_iter().map(|(name, _)| name).collect()
 }
 
 fn quadrature<T: Real>(choice: &Choice) -> PyResult<&'static dyn Quadrature<T>> {
     Ok(match (choice.0.as_str(), choice.1.as_slice()) {
-        ("panels", &[tolerance]) => kept(Panels { tolerance }),
+        ("panels", &[tolerance]) => kept(choice, Panels { tolerance }),
         ("midpoint", &[segments, extrapolations, even]) => {
             let exponents = if even != 0.0 { Exponents::Even } else { Exponents::HalfInteger };
             let (segments, extrapolations) = (segments as usize, extrapolations as u32);
-            kept(Midpoint { segments, extrapolations, exponents })
+            kept(choice, Midpoint { segments, extrapolations, exponents })
         }
         _ => return none_such("quadrature", choice),
     })

@@ -20,6 +20,7 @@ import pytest
 from scenes import Array, example_four, example_three, gear
 
 import linecontact as lc
+from linecontact import _native
 
 FLAT = lc.Flat()
 BODY = lc.Parabola(1.0, (-1.0, 1.0))
@@ -243,6 +244,12 @@ def contacts() -> list[tuple[lc.Contact, dict[str, Any]]]:
         (lc.Contact(FLAT, BODY, quadrature=lc.Midpoint(64, 3, "even")), {"load": 0.02}),
         (lc.Contact(FLAT, BODY, kappa=1.0), {"load": 0.02, "centre_of_pressure": 0.05}),
     ]
+
+
+@pytest.mark.parametrize("name", _native.searches())
+def test_every_search_of_the_library_serves(name: str) -> None:
+    for contact in (lc.Contact(FLAT, BODY, limit_search=name), lc.Contact(FLAT, BODY, inversion=name)):
+        assert contact.solve(half_width=0.2).a == pytest.approx(0.2, rel=1e-14)
 
 
 @pytest.mark.parametrize(("contact", "control"), contacts())

@@ -18,6 +18,7 @@ __all__ = [
     "parameters",
     "quantities",
     "scene_text",
+    "searches",
     "sweep",
     "variants",
 ]
@@ -48,6 +49,7 @@ def parameters(
 ) -> list[tuple[str, float]]: ...
 def quantities() -> list[str]: ...
 def scene_text(text: str, source: str, to: str) -> str: ...
+def searches() -> list[str]: ...
 def sweep(
     scenes: Sequence[Scene],
     which: npt.NDArray[np.uintp],

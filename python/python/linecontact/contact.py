@@ -259,8 +259,9 @@ class Search(NamedTuple):
 
     Parameters
     ----------
-    method : {"bisection", "secant", "brent", "newton"}
-        Name of the strategy.
+    method : str
+        Name of the strategy: "bisection", "newton" or another; an unknown one is refused with the
+        list of all.
     absolute, relative : float
         Errors of the unknown at which the search may stop: absolute, and as a share of the unknown.
     residual : float
@@ -277,7 +278,7 @@ class Search(NamedTuple):
     0.2
     """
 
-    method: Literal["bisection", "secant", "brent", "newton"]
+    method: str
     absolute: float = 0.0
     relative: float = 0.0
     residual: float = 0.0
@@ -335,7 +336,7 @@ def _search(given: Search | str | None, name: str) -> tuple[str, list[float]] | 
     if given is None:
         return None
     method, *numbers = given if isinstance(given, tuple) else (given, *Search("newton")[1:])
-    one_of(method, name, ("bisection", "secant", "brent", "newton"))
+    one_of(method, name, _native.searches())
     return method, [as_number(number, name) for number in numbers]
 
 
