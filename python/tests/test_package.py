@@ -65,7 +65,9 @@ def test_every_class_has_an_example() -> None:
 
 
 @pytest.mark.parametrize("name", [one.name for one in pkgutil.iter_modules([str(PACKAGE)])])
-def test_examples(name: str) -> None:
+def test_examples(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # Some examples write files.
+    monkeypatch.chdir(tmp_path)
     doctest = importlib.import_module("doctest")
     found = doctest.testmod(importlib.import_module(f"linecontact.{name}"))
     assert found.failed == 0

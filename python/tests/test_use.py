@@ -221,11 +221,12 @@ def test_bodies_pickle(body: lc.Body, put: Callable[[lc.Body], lc.Body]) -> None
 def test_a_repr_makes_the_body_again() -> None:
     assert {type(body).__name__ for body in bodies()} == set(lc.bodies.__all__) - {"Body", "Placed"}
     for body in bodies():
+        if isinstance(body, lc.Spline):
+            assert "Spline(<41 points from x = -1 to 1>" in repr(body)
         if isinstance(body, lc.Spline | lc.Curve):
             continue
         for one in (body, placed(body)):
             assert eval(repr(one), vars(lc)) == one
-    assert "Spline(<41 points from x = -1 to 1>" in repr(bodies())
 
 
 def contacts() -> list[tuple[lc.Contact, dict[str, Any]]]:
