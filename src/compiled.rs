@@ -7,7 +7,7 @@
 //! has the same ones again.
 
 pub(crate) use crate::profile::{Fit, Spline, SplineError};
-pub(crate) use crate::quadrature::{Integrator, Midpoint, Panels};
+pub(crate) use crate::quadrature::{Integrator, Panels};
 pub(crate) use crate::solution::certify;
 pub(crate) use crate::stress::{Stress, StressPeak, Subsurface};
 pub(crate) use crate::{
@@ -15,63 +15,55 @@ pub(crate) use crate::{
 };
 pub(crate) use crate::{LoadRates, Peak, Pressure, References, Solution, Solver, SpringTable};
 
-/// Writes each entry `name(arguments) -> value, error = body;` as a method with an attribute.
+/// Writes each entry as a method with an attribute.
 macro_rules! methods {
+    (@result $value:ty) => { Result<$value, ContactError<Self>> };
+    (@result $value:ty, $error:ty) => { Result<$value, $error> };
     ($attribute:meta; $(
         $name:ident $(<$life:lifetime>)? ($($argument:ident: $type:ty),+ $(,)?)
-        -> $value:ty, $error:ident = $body:expr;
+        -> $value:ty $(, $error:ty)? = $body:expr;
     )+) => {$(
         #[$attribute]
-        fn $name $(<$life>)? ($($argument: $type),+) -> Result<$value, $error<Self>> {
-            $body
-        }
+        fn $name $(<$life>)? ($($argument: $type),+)
+            -> crate::compiled::methods!(@result $value $(, $error)?) { $body }
     )+};
 }
 
 /// Writes the entries into the trait or its `impl`, with an attribute.
 macro_rules! entries {
     ($attribute:meta) => { crate::compiled::methods! { $attribute;
-        panels(rule: &Panels) -> Box<dyn Integrator<Self>>, ContactError = rule.prepared();
-        midpoint(rule: &Midpoint) -> Box<dyn Integrator<Self>>, ContactError = rule.prepared();
-        solve<'b>(contact: &Contact<'b, Self>, control: Control<Self>)
-            -> Solution<'b, Self>, ContactError = contact.solve_cold(control);
+        panels(rule: &Panels) -> Box<dyn Integrator<Self>> = rule.prepared();
+        solve<'b>(contact: &Contact<'b, Self>, control: Control<Self>) -> Solution<'b, Self>
+            = contact.solve_cold(control);
         solve_next<'b>(
             solver: &mut Solver<Self>, contact: &Contact<'b, Self>, control: Control<Self>,
-        ) -> Solution<'b, Self>, ContactError = solver.solve_next(contact, control);
-        pressure(pressure: &Pressure<'_, Self>, x: Self) -> Self, ContactError = pressure.at_one(x);
-        pressures(pressure: &Pressure<'_, Self>, x: &[Self], values: &mut [Self])
-            -> (), ContactError = pressure.at_all(x, values);
-        peak(of: &Solution<'_, Self>) -> Peak<Self>, ContactError = of.solved().peak();
-        regions(of: &Solution<'_, Self>)
-            -> Vec<ContactRegion<Self>>, ContactError = of.solved().regions();
-        moment(of: &Solution<'_, Self>) -> Self, ContactError = of.solved().moment_by_half_width();
-        gap_at(of: &Solution<'_, Self>, x: Self) -> Self, ContactError = of.solved().gap_at(x);
-        gap_slope(of: &Solution<'_, Self>, x: Self)
-            -> Self, ContactError = of.solved().gap_slope(x);
-        residual(of: &Solution<'_, Self>, x: Self) -> Self, ContactError = of.solved().residual(x);
-        certify(of: &Solution<'_, Self>)
-            -> Certificate<Self>, ContactError = certify(of.solved());
-        load_rates(of: &Solution<'_, Self>)
-            -> LoadRates<Self>, ContactError = LoadRates::new(of.solved());
-        approach(of: &Solution<'_, Self>, to: &References<Self>)
-            -> Approach<Self>, ContactError = of.approaching(to)?.of_all();
-        approach_rate(of: &Solution<'_, Self>, to: &References<Self>)
-            -> Self, ContactError = of.approaching(to)?.rate();
-        subsurface<'s>(of: &'s Solution<'_, Self>)
-            -> Subsurface<'s, Self>, ContactError = of.below();
-        stress(below: &Subsurface<'_, Self>, x: Self, depth: Self)
-            -> Stress<Self>, ContactError = below.stress(x, depth);
-        largest_shear(below: &Subsurface<'_, Self>)
-            -> StressPeak<Self>, ContactError = below.largest_shear();
-        largest_von_mises(below: &Subsurface<'_, Self>, poisson: Self)
-            -> StressPeak<Self>, ContactError = below.largest_von_mises(poisson);
-        largest_tension(below: &Subsurface<'_, Self>)
-            -> Extremum<Self>, ContactError = below.largest_tension();
+        ) -> Solution<'b, Self> = solver.solve_next(contact, control);
+        pressure(pressure: &Pressure<'_, Self>, x: Self) -> Self = pressure.at_one(x);
+        pressures(pressure: &Pressure<'_, Self>, x: &[Self], values: &mut [Self]) -> ()
+            = pressure.at_all(x, values);
+        peak(of: &Solution<'_, Self>) -> Peak<Self> = of.solved().peak();
+        regions(of: &Solution<'_, Self>) -> Vec<ContactRegion<Self>> = of.solved().regions();
+        moment(of: &Solution<'_, Self>) -> Self = of.solved().moment_by_half_width();
+        gap_at(of: &Solution<'_, Self>, x: Self) -> Self = of.solved().gap_at(x);
+        gap_slope(of: &Solution<'_, Self>, x: Self) -> Self = of.solved().gap_slope(x);
+        certify(of: &Solution<'_, Self>) -> Certificate<Self> = certify(of.solved());
+        load_rates(of: &Solution<'_, Self>) -> LoadRates<Self> = LoadRates::new(of.solved());
+        approach(of: &Solution<'_, Self>, to: &References<Self>) -> Approach<Self>
+            = of.approaching(to)?.of_all();
+        approach_rate(of: &Solution<'_, Self>, to: &References<Self>) -> Self
+            = of.approaching(to)?.rate();
+        subsurface<'s>(of: &'s Solution<'_, Self>) -> Subsurface<'s, Self> = of.below();
+        stress(below: &Subsurface<'_, Self>, x: Self, depth: Self) -> Stress<Self>
+            = below.stress(x, depth);
+        largest_shear(below: &Subsurface<'_, Self>) -> StressPeak<Self> = below.largest_shear();
+        largest_von_mises(below: &Subsurface<'_, Self>, poisson: Self) -> StressPeak<Self>
+            = below.largest_von_mises(poisson);
+        largest_tension(below: &Subsurface<'_, Self>) -> Extremum<Self> = below.largest_tension();
         spring_table(
             contact: &Contact<'_, Self>, to: &References<Self>, loads: [Self; 2], tolerance: Self,
-        ) -> SpringTable<Self>, ContactError = SpringTable::solve(contact, to, loads, tolerance);
-        spline(points: &[[Self; 2]], fit: Fit<Self>)
-            -> Spline<Self>, SplineError = Spline::fit(points, fit);
+        ) -> SpringTable<Self> = SpringTable::solve(contact, to, loads, tolerance);
+        spline(points: &[[Self; 2]], fit: Fit<Self>) -> Spline<Self>, SplineError<Self>
+            = Spline::fit(points, fit);
     }};
 }
 pub(crate) use {entries, methods};

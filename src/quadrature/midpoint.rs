@@ -113,8 +113,8 @@ impl Default for Midpoint {
     }
 }
 
-impl Midpoint {
-    pub(crate) fn prepared<T: Real>(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
+impl<T: Real> Quadrature<T> for Midpoint {
+    fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
         let Self { segments, extrapolations, .. } = *self;
         let Some(levels) = self.levels() else {
             return Err(InputError::InvalidSegments { segments, extrapolations }.into());
@@ -122,12 +122,6 @@ impl Midpoint {
         let (rule, on, moments) = (*self, None, None);
         let (sampler, sums) = (Sampler::default(), OnceLock::new());
         Ok(Box::new(MidpointIntegrator { rule, levels, sampler, on, sums, moments }))
-    }
-}
-
-impl<T: Real> Quadrature<T> for Midpoint {
-    fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
-        T::midpoint(self)
     }
 
     fn serves(&self, integrator: &dyn Integrator<T>) -> bool {

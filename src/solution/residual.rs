@@ -1,6 +1,5 @@
 //! Residual of the integral equation.
 
-use super::Solved;
 use super::pressure_integral::{Density, Integrals};
 use crate::{ContactError, EvaluationError, Interval, Real, Solution};
 
@@ -16,17 +15,15 @@ impl<T: Real> Solution<'_, T> {
     /// [`EvaluationError::InvalidPosition`] for an x not strictly inside; those of
     /// [`pressure`](Self::pressure), of sampling the gap, and [`EvaluationError::Integral`].
     pub fn residual(&self, x: T) -> Result<T, ContactError<T>> {
-        T::residual(self, x)
-    }
-}
-
-impl<T: Real> Solved<'_, T> {
-    pub fn residual(&self, x: T) -> Result<T, ContactError<T>> {
-        let (_, Some(interval)) = Interval::find(self.contacts(), x) else {
-            let interval = self.found.interval;
-            return Err(EvaluationError::InvalidPosition { x, inside: true, interval }.into());
+        let (_, Some(interval)) = Interval::find(self.intervals(), x) else {
+            return Err(EvaluationError::InvalidPosition {
+                x,
+                inside: true,
+                interval: self.hull(),
+            }
+            .into());
         };
-        let integrals = Integrals::new(*self)?;
+        let integrals = Integrals::new(self.solved())?;
         let mut at_x = [T::zero()];
         integrals.density.values(&[x], &mut at_x)?;
         if !at_x[0].is_finite() {
@@ -40,7 +37,7 @@ impl<T: Real> Solved<'_, T> {
         };
         let size = at_x.abs() / interval.half_width();
         let [sum] = integrals.over_as_of(size, x, difference)?;
-        let slope = crate::gap::Sampler::default().slope(self.gap, x)?;
+        let slope = crate::gap::Sampler::default().slope(&self.gap, x)?;
         Ok(sum - self.kappa * slope)
     }
 }
