@@ -353,11 +353,9 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
             Ok((off, sample.dx))
         };
         let root = try_find_with_slope(self.gap.inversion(), function, &bracket);
-        let root = root.map_err(|error| {
-            error.or_else(|source| {
-                ContactError::Solve(SolveError::Inversion { body, x: target, source })
-            })
-        })?;
+        let not_found =
+            |source| ContactError::Solve(SolveError::Inversion { body, x: target, source });
+        let root = root.map_err(|error| error.or_else(not_found))?;
         if let Some(sample) = best.filter(|best| best.k == root.x) {
             return Ok(sample);
         }
@@ -408,8 +406,6 @@ fn turns<T: Real>(piece: Piece<'_, T>, error: ContactError<T>) -> ContactError<T
 }
 
 fn not_finite<T: Real>(body: Body, quantity: &'static str, k: T, value: T) -> ContactError<T> {
-    ContactError::Input(InputError::Profile {
-        body,
-        source: ProfileError::NotFinite { quantity, k, value },
-    })
+    let source = ProfileError::NotFinite { quantity, k, value };
+    InputError::Profile { body, source }.into()
 }

@@ -164,9 +164,7 @@ impl<T: Real> Survey<T> {
                 }
                 _ => Ok(()),
             });
-            found.map_err(|source| {
-                ContactError::Input(InputError::Profile { body: which, source })
-            })?;
+            found.map_err(|source| InputError::Profile { body: which, source })?;
         }
         self.spent = cost.heights - before;
         self.join();
@@ -285,9 +283,7 @@ impl<T: Real> Survey<T> {
             let (before, spans) = (cost.heights, wanted[which as usize]);
             let found = body.refine(surface, self.range, spans, is_marked, &mut cost.heights);
             self.spent += cost.heights - before;
-            changes |= found.map_err(|source| {
-                ContactError::Input(InputError::Profile { body: which, source })
-            })?;
+            changes |= found.map_err(|source| InputError::Profile { body: which, source })?;
         }
         Ok(changes)
     }

@@ -53,12 +53,8 @@ fn widen<T: Real>(
             x[1] = (x[1] + step).min(half * x[1] + half * whole.right);
         }
         if x == before || !(whole.contains(x[0]) && whole.contains(x[1])) {
-            return scan(
-                sampler,
-                gap,
-                start,
-                ContactError::Solve(SolveError::NoFirstContact { x: before, slope }),
-            );
+            let fault = SolveError::NoFirstContact { x: before, slope };
+            return scan(sampler, gap, start, fault.into());
         }
         for i in 0..2 {
             if x[i] != before[i] {
@@ -132,8 +128,6 @@ fn zero<T: Real>(
     match try_find(&Brent::default(), |u| sampler.slope(gap, at(u)), &bracket) {
         // Any point of a bracket this tight lies in the contact.
         Ok(root) | Err(TryFindError::Search(SearchError::Budget { best: root })) => Ok(at(root.x)),
-        Err(error) => {
-            Err(error.or_else(|_| ContactError::Solve(SolveError::NoFirstContact { x, slope })))
-        }
+        Err(error) => Err(error.or_else(|_| SolveError::NoFirstContact { x, slope }.into())),
     }
 }

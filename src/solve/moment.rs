@@ -127,11 +127,5 @@ fn nearest<T: Real>(
     let ContactState { tilt, interval: Interval { left, right }, .. } = found;
     let room = (left - ends.left).min(ends.right - right);
     let is_at_end = room <= T::of(LEAST_LEFT) * (ends.right - ends.left);
-    is_at_end.then_some(ContactError::Solve(SolveError::TiltNotFound {
-        load,
-        at,
-        reached,
-        tilt,
-        ends,
-    }))
+    is_at_end.then(|| SolveError::TiltNotFound { load, at, reached, tilt, ends }.into())
 }

@@ -231,9 +231,10 @@ impl<'s, T: Real> NestedSearch<'s, T> {
         };
         match try_find(strategy, function, bracket) {
             Ok(_) => Ok(*best),
-            Err(error) => Err(error.or_else(|source| {
-                ContactError::Solve(SolveError::LimitSearch { best: best.on, source })
-            })),
+            Err(error) => {
+                Err(error
+                    .or_else(|source| SolveError::LimitSearch { best: best.on, source }.into()))
+            }
         }
     }
 
