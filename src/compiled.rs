@@ -8,7 +8,7 @@
 
 pub(crate) use crate::profile::{Fit, Spline, SplineError};
 pub(crate) use crate::quadrature::{Integrator, Panels};
-pub(crate) use crate::solution::certify;
+pub(crate) use crate::solution::{Approaching, certify};
 pub(crate) use crate::stress::{Stress, StressPeak, Subsurface};
 pub(crate) use crate::{
     Approach, Certificate, Contact, ContactError, ContactRegion, Control, Extremum,
@@ -49,9 +49,9 @@ macro_rules! entries {
         certify(of: &Solution<'_, Self>) -> Certificate<Self> = certify(of.solved());
         load_rates(of: &Solution<'_, Self>) -> LoadRates<Self> = LoadRates::new(of.solved());
         approach(of: &Solution<'_, Self>, to: &References<Self>) -> Approach<Self>
-            = of.approaching(to)?.of_all();
+            = Approaching::new(of.solved(), of.elasticity, to)?.of_all();
         approach_rate(of: &Solution<'_, Self>, to: &References<Self>) -> Self
-            = of.approaching(to)?.rate();
+            = Approaching::new(of.solved(), of.elasticity, to)?.rate();
         subsurface<'s>(of: &'s Solution<'_, Self>) -> Subsurface<'s, Self> = of.below();
         stress(below: &Subsurface<'_, Self>, x: Self, depth: Self) -> Stress<Self>
             = below.stress(x, depth);

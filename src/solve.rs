@@ -27,7 +27,7 @@ use crate::quadrature::panels::{self, Several};
 use crate::quadrature::{Integrator, complete};
 use crate::solution::{ContactState, Outcome, Report, Solution, Solved, Start, certify};
 use crate::{ContactError, Edge, Ends, InputError, Interval, Real, SolveError};
-use by_load::{ByLoad, Quantity};
+use by_load::{ByApproach, HalfWidth, Peak};
 use edges::{Conditions, Given};
 use equations::Equations;
 use std::sync::Arc;
@@ -79,7 +79,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`InputError::InvalidYoungsModulus`], [`InputError::InvalidPoissonRatio`],
     /// [`InputError::BothRigid`] for materials; [`InputError::NoMaterials`],
     /// [`InputError::InvalidReference`], [`SolveError::ApproachTooLarge`],
-    /// [`SolveError::ApproachFalls`],
+    /// [`SolveError::Falls`],
     /// [`EvaluationError::NoLoadDerivative`](crate::EvaluationError::NoLoadDerivative) with a given
     /// approach; the errors of [`Solution::certify`] if [`certified`](Self::certified).
     pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
@@ -173,23 +173,17 @@ fn find_under<T: Real>(
             let conditions = Conditions { kappa, edges, given: Given::HalfWidth(half_width) };
             match topology::find(contact, conditions, work) {
                 Err(error) if may_have_several(contact, &error, work)? => {
-                    ByLoad::find(contact, Quantity::HalfWidth, half_width, work)
+                    by_load::find(contact, &HalfWidth, ("half-width", half_width), work)
                 }
                 found => found,
             }
         }
         (Control::PeakPressure(wanted), _) => {
-            check_positive("peak pressure", wanted)?;
-            by_load::check_edges(contact)?;
-            ByLoad::find(contact, Quantity::Peak, wanted, work)
+            by_load::find(contact, &Peak::new(contact)?, ("peak pressure", wanted), work)
         }
         (Control::Approach { approach: wanted, references }, _) => {
-            let bodies = contact.elasticity()?;
-            if bodies.is_none() {
-                return Err(InputError::NoMaterials.into());
-            }
-            check_positive("approach", wanted)?;
-            ByLoad::find(contact, Quantity::Approach { references, bodies }, wanted, work)
+            let bodies = contact.elasticity()?.ok_or(InputError::NoMaterials)?;
+            by_load::find(contact, &ByApproach { references, bodies }, ("approach", wanted), work)
         }
         (Control::Moment { load, moment, about }, _) => {
             moment::find(contact, moment::LineOfLoad::of_moment(load, moment, about)?, work)

@@ -8,9 +8,10 @@
 //! tolerance, a point is added between them.
 
 use crate::real::same;
+use crate::solution::Approaching;
 use crate::{
     Contact, ContactError, Control, EvaluationError, InputError, Interval, Real, References,
-    Solution, SolveError, Solver,
+    Solution, Solver,
 };
 
 /// Largest number of points of a table.
@@ -122,7 +123,7 @@ impl<T: Real> SpringTable<T> {
     /// [`InputError::InvalidLoad`] for a range that is not positive and rising;
     /// [`InputError::InvalidTolerance`] for a tolerance that is not above 0 and below 1; the
     /// errors of [`Contact::solve`], [`Solution::approach`], [`Solution::stiffness`] and
-    /// [`Solution::peak`]; [`SolveError::ApproachFalls`].
+    /// [`Solution::peak`]; [`SolveError::Falls`](crate::SolveError::Falls).
     pub fn new(
         contact: &Contact<'_, T>,
         references: &References<T>,
@@ -250,12 +251,9 @@ fn node<T: Real>(
     solution: &Solution<'_, T>,
     references: &References<T>,
 ) -> Result<Node<T>, ContactError<T>> {
-    let [approach, rate] = solution.approaching(references)?.with_rate()?;
-    let load = solution.load();
-    if !(rate > T::zero() && rate.is_finite()) {
-        return Err(SolveError::ApproachFalls { load, rate }.into());
-    }
-    let rates = solution.load_rates()?;
+    let approaching = Approaching::new(solution.solved(), solution.elasticity, references)?;
+    let [approach, rate] = approaching.with_rate()?;
+    let (load, rates) = (solution.load(), solution.load_rates()?);
     let halves = solution.intervals().iter().map(Interval::half_width);
     let half_contact = halves.fold(T::zero(), |sum, half| sum + half);
     let widening = rates.limits.iter().map(|rates| T::of(0.5) * (rates.right - rates.left));

@@ -185,7 +185,7 @@ table! {
     NoPeak { wanted, half_width, found };
     InJump { wanted, load, below, above };
     ApproachTooLarge { wanted, approach, load };
-    ApproachFalls { load, rate };
+    Falls { quantity, load, rate };
     LoadBeyondSlices { load, at, ends };
     OneSlice { z };
     RollerNotFound { source };

@@ -400,6 +400,13 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         "UnresolvedError",
         {},
     ),
+    (
+        lambda: material().solve(
+            approach=10.0, references=lc.References(0.0, lc.Reference.length(1e-3), lc.Reference.length(1e-3))
+        ),
+        "FallsError",
+        {"quantity": "approach"},
+    ),
     # Questions.
     (lambda: solved().approach(TO), "NoMaterialsError", {}),
     (
@@ -503,7 +510,6 @@ def test_provoked(provoke: Callable[[], Any], name: str, numbers: dict[str, Any]
 
 # Errors that this package cannot raise, or for which no scene is known.
 NOT_PROVOKED = {
-    "ApproachFallsError": "no scene is known",
     "CancelledError": "comes out as KeyboardInterrupt, or as the exception of a function",
     "IntegralError": "no scene is known",
     "LengthMismatchError": "arrays of results are made here",

@@ -364,17 +364,18 @@ pub enum SolveError<T: Real> {
         /// Load at this approach.
         load: T,
     },
-    /// The approach to these references does not grow with the load, so that it does not determine
-    /// the load.
+    /// The quantity falls while the load grows, before it has the value asked for, so that it does
+    /// not determine the load.
     #[error(
-        "under the load {load} the approach falls by {rate} with each unit of it: the references are \
-         too close to the surface; put them deeper, take larger lengths, or an x inside the contact",
-        load = six(*load), rate = six(*rate)
+        "under the load {} the {quantity} no longer grows, its rate is {}: ask for less, or give the load; for an \
+         approach put the references deeper, take larger lengths, or an x inside the contact", six(*load), six(*rate)
     )]
-    ApproachFalls {
-        /// Load at which the approach falls.
+    Falls {
+        /// The quantity that is given: an approach.
+        quantity: &'static str,
+        /// Least load known under which it falls.
         load: T,
-        /// dδ/dF there, negative or zero.
+        /// Its derivative by the load there, negative or zero.
         rate: T,
     },
     /// The load of a roller acts beyond its slices: no pressure between them has this moment.

@@ -128,15 +128,6 @@ impl<T: Real> Solution<'_, T> {
     }
 }
 
-impl<T: Real> Solution<'_, T> {
-    pub(crate) fn approaching(
-        &self,
-        references: &References<T>,
-    ) -> Result<Approaching<'_, T>, ContactError<T>> {
-        Approaching::new(self.solved(), self.elasticity, references)
-    }
-}
-
 /// Contact, elasticity of its bodies and their references: all data of the approach.
 pub(crate) struct Approaching<'s, T: Real> {
     solved: Solved<'s, T>,
@@ -264,11 +255,15 @@ impl<'s, T: Real> Approaching<'s, T> {
         Ok(mean)
     }
 
-    /// Returns the approach of the bodies alone, and its rate dδ/dF.
+    /// Returns the approach of the bodies alone, and its rate dδ/dF. Fails if it falls.
     pub fn with_rate(&self) -> Result<[T; 2], ContactError<T>> {
+        let (rate, load, quantity) = (self.rate()?, self.solved.found.load, "approach");
+        if !(rate > T::zero() && rate.is_finite()) {
+            return Err(SolveError::Falls { quantity, load, rate }.into());
+        }
         let integrals = Integrals::new(self.solved)?;
         let smooth = self.smooth(&integrals)?;
-        Ok([self.of_bodies(&integrals, smooth, &self.first()?)?, self.rate()?])
+        Ok([self.of_bodies(&integrals, smooth, &self.first()?)?, rate])
     }
 
     /// Returns the approach of the bodies from the integrals of the kernels.

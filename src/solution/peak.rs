@@ -1,6 +1,6 @@
 //! Largest pressure of a contact.
 
-use super::{ContactState, Solution, Solved};
+use super::{ContactState, LoadRates, Solution, Solved};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Estimate, Integrator, LoadCase, panels};
 use crate::{ContactError, EvaluationError, Interval, Real, Side};
@@ -65,26 +65,30 @@ impl<T: Real> Solution<'_, T> {
 impl<T: Real> Solved<'_, T> {
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
         self.integrator.complete(self.gap)?;
-        let (_, x, Estimate { value: pressure, .. }) =
-            self.largest_pressure(&mut Cost::default())?;
-        Ok(Peak { x, pressure })
+        let (x, top) = self.largest_pressure(&mut Cost::default())?;
+        Ok(Peak { x, pressure: top.value })
     }
 
-    /// Finds the largest pressure of all contacts: the number of its contact, its place and value.
-    pub fn largest_pressure(
-        &self,
-        cost: &mut Cost,
-    ) -> Result<(usize, T, Estimate<T>), ContactError<T>> {
+    /// Finds the largest pressure of all contacts: its place and value.
+    pub fn largest_pressure(&self, cost: &mut Cost) -> Result<(T, Estimate<T>), ContactError<T>> {
         let last = self.contacts().len() - 1;
-        let (x, top) = self.peak_in(last, cost)?;
-        let mut best = (last, x, top);
+        let mut best = self.peak_in(last, cost)?;
         for i in (0..last).rev() {
-            let (x, top) = self.peak_in(i, cost)?;
-            if top.value >= best.2.value {
-                best = (i, x, top);
-            }
+            let found = self.peak_in(i, cost)?;
+            best = if found.1.value >= best.1.value { found } else { best };
         }
         Ok(best)
+    }
+
+    /// Finds the largest pressure, its derivative by the load, which is that at its place, and its
+    /// relative error.
+    pub fn peak_with_rate(&self, cost: &mut Cost) -> Result<[T; 3], ContactError<T>> {
+        let (x, Estimate { value, error }) = self.largest_pressure(cost)?;
+        let rate = match self.several() {
+            Some(_) => LoadRates::new(*self)?.pressure(x)?,
+            None => T::frac_1_pi() / self.found.interval.chebyshev_weight(x),
+        };
+        Ok([value, rate, error / value.abs()])
     }
 
     /// Finds the largest pressure of one contact, given by its number.

@@ -1,130 +1,129 @@
-//! Contact under which a quantity that grows with the load has a given value.
+//! Contact with a given value of a quantity that no equation of the contact prescribes.
 //!
-//! Without adhesion the peak pressure, the approach of the bodies and the half-width never fall
-//! with the load, whatever the number of contacts, and their derivatives are known:
+//! Each [`Quantity`] has a file: its value, its rate and the load to begin with. Newton's method on
+//! ln q over ln F finds the load, between loads that are too small and too large; for a power law
+//! it takes one step. Each trial is a solve by load, and its samples serve the next. A quantity may
+//! jump: the half-width when a contact is born outside the others, the peak when a corner is
+//! reached. A value inside a jump has no load.
 //!
-//! ```text
-//! peak         ∂P/∂F at its place, a flat punch on the contacts
-//! approach     dδ/dF = 1/stiffness
-//! half-width   (da/dF + db/dF)/2
-//! ```
-//!
-//! So Newton's method on ln q over ln F finds the load, between loads that are too small and too
-//! large; for a power law it takes one step. Each trial is a solve by load, and its samples serve
-//! the next. A quantity may jump: the half-width when a contact is born outside the others, the
-//! peak when a corner is reached. A value inside a jump has no load.
+//! A quantity that may fall can have a value under several loads. The one sought lies on the branch
+//! from first touch, where the quantity rises: a load under which it falls is too large. It is
+//! followed from a light load, in steps so short that the rates at both ends agree with the rise in
+//! between.
+
+mod approach;
+mod half_width;
+mod peak;
+#[cfg(test)]
+mod tests;
 
 use super::capacity::Capacity;
 use super::edges::{Conditions, Given};
-use super::{Contact, Work, topology};
+use super::{Contact, Work, check_positive, topology};
 use crate::gap::Asked;
-use crate::material::Elasticity;
 use crate::search::SearchError;
-use crate::solution::{Approaching, ContactState, LoadRates, Report, Solved};
-use crate::{
-    ContactError, Edge, Ends, EvaluationError, InputError, Interval, Real, References, SolveError,
-};
+use crate::solution::{ContactState, Report, Solved};
+use crate::{ContactError, Ends, Interval, Real, SolveError};
+pub(super) use approach::ByApproach;
+pub(super) use half_width::HalfWidth;
+pub(super) use peak::Peak;
+use std::ops::ControlFlow;
 
 /// Loads tried before the search is given up.
 const MAX_LOADS: usize = 100;
 
-/// First load for an approach, as a share of `κ δ`: a third is right twenty half-widths above the
-/// references, and less further off. The samples of a contact serve a narrower one, but not a
-/// wider one.
-const FIRST_LOAD: f64 = 0.4;
-
 /// Largest factor between the loads of two trials.
 const MAX_STEP: f64 = 1e3;
+
+/// Load from which a quantity is followed, as a share of the load expected.
+const FIRST_TOUCH: f64 = 1e-6;
+
+/// Shortest step by which it is followed, a factor: between its ends no fall is looked for.
+const LEAST_STEP: f64 = 1.001;
 
 /// Largest factor between a load and the first one while the load is not enclosed.
 const MAX_FACTOR: f64 = 1e12;
 
+/// Value of a quantity, its derivative by the load, and its relative error from other sources than
+/// the limits.
+type Value<T> = Result<[T; 3], ContactError<T>>;
+
+/// Conclusion from a failed trial: the widest contact, which has the wanted value, or an estimate.
+type Bound<T> = Result<ControlFlow<ContactState<T>, Point<T>>, ContactError<T>>;
+
 /// Quantity that is given instead of the load.
-#[derive(Clone, Copy)]
-pub(super) enum Quantity<T> {
-    HalfWidth,
-    Peak,
-    Approach { references: References<T>, bodies: Option<[Elasticity<T>; 2]> },
+pub(super) trait Quantity<T: Real> {
+    /// Returns the load to try first.
+    fn first_load(&self, search: &mut ByLoad<'_, '_, T>) -> Result<T, ContactError<T>>;
+
+    /// Returns the value in a contact found.
+    fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, T>) -> Value<T>;
+
+    /// Tells whether the quantity may fall between first touch and a load under which it rises.
+    fn may_fall(&self, contact: &Contact<'_, T>) -> bool;
+
+    /// Returns the value in the widest contact, and the error for a larger one, if they are known.
+    fn of_widest(&self, _wanted: T, _: &Capacity<T>) -> Option<(T, ContactError<T>)> {
+        None
+    }
+
+    /// Returns the error for a value that occurs under no load, if it has one of its own.
+    fn none(&self, _: &ByLoad<'_, '_, T>) -> Option<ContactError<T>> {
+        None
+    }
 }
 
-/// Checks the edges for a given peak: a corner on the bodies may end them; at any other edge that
-/// is not free the pressure is infinite.
-pub(super) fn check_edges<T: Real>(contact: &Contact<'_, T>) -> Result<(), ContactError<T>> {
-    let edges = contact.checked_edges()?;
-    if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = edges {
-        return Err(InputError::BothLimitsGiven { interval: Interval { left, right } }.into());
-    }
-    match edges.into_iter().find(|edge| !edge.is_free()) {
-        Some(edge) => Err(InputError::PeakEdge { edge }.into()),
-        None => Ok(()),
+/// Quantity under a load.
+#[derive(Clone, Copy)]
+struct Point<T> {
+    load: T,
+    value: T,
+    rate: T,
+}
+
+impl<T: Real> Point<T> {
+    /// Tells whether the quantity rises up to another point about like a power of the load: the
+    /// exponents at both ends are within half of the mean one.
+    fn rises_to(&self, to: &Self) -> bool {
+        let mean = (to.value / self.value).ln() / (to.load / self.load).ln();
+        let off = |at: &Self| (at.rate * at.load / at.value - mean).abs();
+        off(self).max(off(to)) <= T::of(0.5) * mean
     }
 }
 
 /// Search for the load under which a quantity has the wanted value.
-pub(super) struct ByLoad<'s, 'w, 'b, T: Real> {
-    contact: &'s Contact<'b, T>,
-    quantity: Quantity<T>,
+pub(super) struct ByLoad<'s, 'w, T: Real> {
+    contact: &'s Contact<'s, T>,
+    quantity: &'s dyn Quantity<T>,
+    name: &'static str,
     wanted: T,
     work: &'s mut Work<'w, T>,
+    /// True if the quantity has to be followed from first touch.
+    follows: bool,
+    /// Loads that are too small and too large.
+    low: Option<Point<T>>,
+    high: Option<Point<T>>,
+    /// Reason why a load is too large or too small, if it is not the quantity.
+    fault: Option<ContactError<T>>,
 }
 
-/// Conclusion from a failed trial.
-enum Bound<T> {
-    /// Load, and an estimate of the quantity under it.
-    At(T, T),
-    /// Widest contact, which has the wanted value.
-    Widest(ContactState<T>),
+/// Finds the contact with a value of the quantity of this name.
+pub(super) fn find<T: Real>(
+    contact: &Contact<'_, T>,
+    quantity: &dyn Quantity<T>,
+    (name, wanted): (&'static str, T),
+    work: &mut Work<'_, T>,
+) -> Result<ContactState<T>, ContactError<T>> {
+    check_positive(name, wanted)?;
+    let (follows, low, high, fault) = (quantity.may_fall(contact), None, None, None);
+    ByLoad { contact, quantity, name, wanted, work, follows, low, high, fault }.run()
 }
 
-/// Contact, its quantity, and the derivative of the quantity by the load.
-type Trial<T> = (ContactState<T>, [T; 2]);
-
-/// Loads that are too small and too large, each with its quantity.
-#[derive(Clone, Copy)]
-struct Enclosure<T> {
-    low: Option<[T; 2]>,
-    high: Option<[T; 2]>,
-}
-
-impl<T: Real> Enclosure<T> {
-    fn add(&mut self, at: [T; 2], wanted: T) {
-        *(if at[1] < wanted { &mut self.low } else { &mut self.high }) = Some(at);
-    }
-
-    /// Returns this load, or one within the enclosure if this one is known to be too small or too
-    /// large.
-    fn inside(&self, load: T) -> T {
-        let step = T::of(MAX_STEP);
-        match [self.low, self.high].map(|end| end.map(|[load, _]| load)) {
-            [Some(low), Some(high)] if !(load > low && load < high) => low.sqrt() * high.sqrt(),
-            [Some(low), None] if load <= low => low * step,
-            [None, Some(high)] if load >= high => high / step,
-            _ => load,
-        }
-    }
-
-    /// Tells whether the enclosure has no load left inside.
-    fn is_closed(&self) -> bool {
-        let nothing = T::one() + T::epsilon().sqrt();
-        matches!((self.low, self.high), (Some([low, _]), Some([high, _])) if high <= low * nothing)
-    }
-}
-
-impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
-    /// Finds the contact under the load sought.
-    pub fn find(
-        contact: &'s Contact<'b, T>,
-        quantity: Quantity<T>,
-        wanted: T,
-        work: &'s mut Work<'w, T>,
-    ) -> Result<ContactState<T>, ContactError<T>> {
-        Self { contact, quantity, wanted, work }.run()
-    }
-
+impl<T: Real> ByLoad<'_, '_, T> {
     fn run(&mut self) -> Result<ContactState<T>, ContactError<T>> {
-        let mut first = self.first()?;
-        let (mut load, mut fault) = (first, None);
-        let mut enclosure = Enclosure { low: None, high: None };
+        let mut first = self.quantity.first_load(self)?;
+        first *= if self.follows { T::of(FIRST_TOUCH) } else { T::one() };
+        let mut load = first;
         // Number of steps left without a check, once the next one squares the error.
         let mut last_steps: Option<usize> = None;
         for _ in 0..MAX_LOADS {
@@ -132,11 +131,13 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
             if !load.is_finite() || (load * T::epsilon()).is_zero() {
                 return Err(SolveError::Overflow { interval: self.whole() }.into());
             }
-            let [value, rate] = match self.at(load) {
+            let at = match self.at(load) {
                 Ok((found, at)) => {
-                    let step = (self.wanted - at[0]) / at[1].component(0);
+                    let step = (self.wanted - at.value) / at.rate.component(0);
                     let size = step.abs() / load;
+                    let is_near = size <= T::epsilon().sqrt();
                     let is_there = T::DERIVATIVE_ORDER == 0 && size <= T::epsilon();
+                    last_steps = last_steps.filter(|_| is_near);
                     if last_steps == Some(0) || is_there {
                         let error = found.error.map(|error| error + size);
                         return Ok(ContactState { error, ..found });
@@ -144,109 +145,93 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
                     last_steps = match last_steps {
                         Some(left) => Some(left - 1),
                         // The rate of a peak is known to only half the digits.
-                        None => (size <= T::epsilon().sqrt()).then_some(2 * T::DERIVATIVE_ORDER),
+                        None => is_near.then_some(2 * T::DERIVATIVE_ORDER),
                     };
                     if last_steps.is_some() {
-                        load += step;
+                        load = at.load + step;
                         continue;
                     }
-                    fault = fault.filter(|_| at[0] < self.wanted);
+                    self.fault = self.fault.take().filter(|_| at.value < self.wanted);
                     at
                 }
                 Err(error) => match self.bound(&error, load)? {
-                    Bound::Widest(found) => return Ok(found),
-                    Bound::At(at, value) => {
+                    ControlFlow::Break(widest) => return Ok(widest),
+                    ControlFlow::Continue(at) => {
                         // The capacity of the bodies is a better estimate than the first guess.
-                        (first, load) = (if at < load { at } else { first }, at);
-                        fault = Some(error);
-                        [value, T::zero()]
+                        first = if at.load < load { at.load } else { first };
+                        self.fault = Some(error);
+                        at
                     }
                 },
             };
-            enclosure.add([load, value], self.wanted);
-            load = enclosure.inside(self.next(load, [value, rate]));
-            let is_known = enclosure.low.is_some() && enclosure.high.is_some();
-            let is_far = load > first * T::of(MAX_FACTOR) || load < first / T::of(MAX_FACTOR);
-            if enclosure.is_closed() || !is_known && is_far {
-                return Err(self.none(&enclosure, fault));
+            *(if at.value < self.wanted { &mut self.low } else { &mut self.high }) = Some(at);
+            load = self.inside(self.next(at));
+            let is_closed = match (self.low, self.high) {
+                (Some(low), Some(high)) => high.load <= low.load * (T::one() + T::epsilon().sqrt()),
+                _ => load > first * T::of(MAX_FACTOR) || load < first / T::of(MAX_FACTOR),
+            };
+            if is_closed {
+                return Err(self.none());
             }
         }
-        let best = self.work.workspace.hull().unwrap_or(self.whole());
-        let residual = enclosure.high.map_or(self.wanted, |[_, value]| value - self.wanted);
+        let residual = self.high.map_or(self.wanted, |high| high.value - self.wanted);
         let source = SearchError::NotConverged { x: load, residual };
-        Err(SolveError::LimitSearch { best, source }.into())
+        Err(SolveError::LimitSearch { best: self.hull(), source }.into())
     }
 
-    /// Returns the load to start with.
-    fn first(&mut self) -> Result<T, ContactError<T>> {
-        let (kappa, wanted, gap) = (self.contact.kappa, self.wanted, &self.contact.gap);
-        let known = self.work.workspace.hull().or(self.contact.start);
-        let [left, right] = gap.range();
-        let sixty_fourth = T::of(1.0 / 64.0) * (right - left);
-        let half_width = known.map_or(sixty_fourth, |on| on.half_width());
-        let hertz = T::frac_pi_2() * wanted * half_width;
-        let asked = match self.quantity {
-            Quantity::Approach { .. } => return Ok(T::of(FIRST_LOAD) * kappa * wanted),
-            Quantity::HalfWidth => Asked::HalfWidth(wanted),
-            Quantity::Peak => {
-                if known.is_some() || gap.is_convex() {
-                    return Ok(hertz);
-                }
-                Asked::Peak(wanted / kappa)
-            }
-        };
-        let load = kappa * self.work.workspace.about(gap, asked, self.work.cost)?;
+    /// Returns this load, or one between the known ones if it is known to be too small or too
+    /// large.
+    fn inside(&self, load: T) -> T {
+        let step = T::of(MAX_STEP);
+        match [self.low, self.high].map(|end| end.map(|end| end.load)) {
+            [Some(low), Some(high)] if !(load > low && load < high) => low.sqrt() * high.sqrt(),
+            [Some(low), None] if load <= low => low * step,
+            [None, Some(high)] if load >= high || self.follows => high / step,
+            _ => load,
+        }
+    }
+
+    /// Returns the load for a request by the survey of the bodies. If that is zero, or a start or
+    /// convexity make Hertz good enough, the load is that of a contact as wide as the start.
+    fn surveyed(&mut self, asked: Asked<T>, or_hertz: bool) -> Result<T, ContactError<T>> {
+        let (Contact { gap, kappa, start, .. }, work) = (self.contact, &mut *self.work);
+        let ([left, right], start) = (gap.range(), work.workspace.hull().or(*start));
+        let half_width = start.map_or(T::of(1.0 / 64.0) * (right - left), |on| on.half_width());
+        let hertz = T::frac_pi_2() * self.wanted * half_width;
+        if or_hertz && (start.is_some() || gap.is_convex()) {
+            return Ok(hertz);
+        }
+        let load = *kappa * work.workspace.about(gap, asked, work.cost)?;
         Ok(if load > T::zero() { load } else { hertz })
     }
 
-    /// Finds the contact under a load, with its quantity.
-    fn at(&mut self, load: T) -> Result<Trial<T>, ContactError<T>> {
-        let (contact, conditions) = (self.contact, self.contact.under(load)?);
-        let found = self.solve(conditions)?;
-        let (gap, kappa) = (&contact.gap, contact.kappa);
-        let solved = Solved { gap, integrator: &*self.work.integrator, kappa, found: &found };
-        let (at, doubt) = match self.quantity {
-            Quantity::HalfWidth => {
-                let (on, wanted, peak) = (found.interval, self.wanted, T::one() / T::zero());
-                // No load widens a contact from corner to corner.
-                if found.free == Ends::both(false) && on.half_width() < wanted {
-                    let widest = Capacity { on, end: on.right, load, peak };
-                    return Err(widest.too_wide(wanted));
-                }
-                let rates = LoadRates::new(solved)?;
-                let half = T::of(0.5);
-                ([found.interval.half_width(), half * (rates.a + rates.b)], T::zero())
+    /// Returns a contact found, with all data of its pressure.
+    fn solved<'f>(&'f self, found: &'f ContactState<T>) -> Solved<'f, T> {
+        let (gap, kappa) = (&self.contact.gap, self.contact.kappa);
+        Solved { gap, integrator: &*self.work.integrator, kappa, found }
+    }
+
+    /// Finds the contact under a load, and the quantity: if that is followed, under a load up to
+    /// which it rises.
+    fn at(&mut self, mut load: T) -> Result<(ContactState<T>, Point<T>), ContactError<T>> {
+        loop {
+            let found = self.solve(self.contact.under(load)?)?;
+            let [value, rate, doubt] = self.quantity.at(&found, self)?;
+            let at = Point { load, value, rate };
+            let low = self.low.filter(|low| self.follows && low.load < load);
+            let is_close = |low: &Point<T>| load <= low.load * T::of(LEAST_STEP);
+            let mean = |low: Point<T>| (value - low.value) / (load - low.load);
+            let least = low.filter(is_close).map_or(rate, |low| rate.min(mean(low)));
+            if self.follows && !(least > T::zero() && rate.is_finite()) {
+                return Err(SolveError::Falls { quantity: self.name, load, rate: least }.into());
             }
-            Quantity::Peak => match solved.largest_pressure(self.work.cost) {
-                Ok((_, x, top)) => {
-                    let rate = match solved.several() {
-                        Some(_) => LoadRates::new(solved)?.pressure(x)?,
-                        None => T::frac_1_pi() / found.interval.chebyshev_weight(x),
-                    };
-                    ([top.value, rate], top.error / top.value.abs())
-                }
-                Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => {
-                    let widest =
-                        topology::up_to_corner(contact, &conditions, found.free, self.work);
-                    if let Some(widest) = widest {
-                        return Err(widest.too_short(load));
-                    }
-                    ([T::one() / T::zero(), T::zero()], T::zero())
-                }
-                Err(error) => return Err(error),
-            },
-            Quantity::Approach { references, bodies } => {
-                let at = Approaching::new(solved, bodies, &references)?.with_rate()?;
-                let rate = at[1];
-                if !(rate > T::zero() && rate.is_finite()) {
-                    return Err(SolveError::ApproachFalls { load, rate }.into());
-                }
-                (at, T::zero())
-            }
-        };
-        // The half-width follows from the peak, and is known no better.
-        let error = found.error.map(|error| error + doubt);
-        Ok((ContactState { error, ..found }, at))
+            let Some(low) = low.filter(|low| !is_close(low) && !low.rises_to(&at)) else {
+                // The half-width follows from the peak, and is known no better.
+                let error = found.error.map(|error| error + doubt);
+                return Ok((ContactState { error, ..found }, at));
+            };
+            load = low.load.sqrt() * load.sqrt();
+        }
     }
 
     /// Finds the contacts under some conditions, ready for their pressures.
@@ -259,7 +244,7 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
     }
 
     /// Returns the next load by Newton's method for the logarithms, within its trusted range.
-    fn next(&self, load: T, [value, rate]: [T; 2]) -> T {
+    fn next(&self, Point { load, value, rate, .. }: Point<T>) -> T {
         let power = value / (load * rate);
         // The exponent of a round body, if the rate is unknown.
         let power = if power.is_finite() { power } else { T::of(2.0) };
@@ -269,90 +254,51 @@ impl<'s, 'w, 'b, T: Real> ByLoad<'s, 'w, 'b, T> {
     }
 
     /// Returns the conclusion from a failed trial on its load.
-    fn bound(&mut self, error: &ContactError<T>, load: T) -> Result<Bound<T>, ContactError<T>> {
+    fn bound(&mut self, error: &ContactError<T>, load: T) -> Bound<T> {
+        use SolveError::{DomainTooShort, Falls, LiftsOff, NoEquilibrium};
         let (wanted, infinite) = (self.wanted, T::one() / T::zero());
-        Ok(match *error {
-            ContactError::Solve(SolveError::DomainTooShort {
-                end,
-                carried,
-                half_width,
-                peak,
-                kappa_is_default,
-                ..
-            }) => {
-                let given = Given::HalfWidth(half_width);
-                let (at, load) = (carried.min(load), carried);
-                let (value, too_large) = match self.quantity {
-                    Quantity::HalfWidth => (
-                        half_width,
-                        ContactError::Solve(SolveError::HalfWidthTooLarge {
-                            wanted,
-                            half_width,
-                            end,
-                            load,
-                            peak,
-                            kappa_is_default,
-                        }),
-                    ),
-                    Quantity::Peak => (
-                        peak,
-                        ContactError::Solve(SolveError::PeakTooHigh {
-                            wanted,
-                            half_width,
-                            found: peak,
-                            end,
-                            load,
-                            kappa_is_default,
-                        }),
-                    ),
-                    // The further approach of the bodies is unknown.
-                    Quantity::Approach { .. } => (infinite, error.clone()),
-                };
+        let unknown = |load: T, value: T| Point { load, value, rate: T::zero() };
+        Ok(ControlFlow::Continue(match *error {
+            ContactError::Solve(DomainTooShort { end, carried, half_width, peak, .. }) => {
+                let widest = Capacity { half_width, end, load: carried, peak };
+                // A quantity that may fall may have had the value before.
+                let known = self.quantity.of_widest(wanted, &widest);
+                let known = known.filter(|_| !self.follows);
+                let (value, too_large) = known.unwrap_or((infinite, error.clone()));
                 if (value - wanted).abs() <= T::of(8.0) * T::epsilon() * wanted {
-                    let conditions = self.contact.under(load)?;
-                    return Ok(Bound::Widest(self.solve(Conditions { given, ..conditions })?));
+                    let given = Given::HalfWidth(half_width);
+                    let conditions = Conditions { given, ..self.contact.under(carried)? };
+                    return Ok(ControlFlow::Break(self.solve(conditions)?));
                 }
                 if value < wanted {
                     return Err(too_large);
                 }
-                Bound::At(at, value)
+                unknown(carried.min(load), value)
             }
+            ContactError::Solve(Falls { load, .. }) => unknown(load, infinite),
             // So small a load is not held by a corner, or does not close a hollow.
-            ContactError::Solve(SolveError::NoEquilibrium { .. } | SolveError::LiftsOff { .. }) => {
-                Bound::At(load, T::zero())
-            }
+            ContactError::Solve(NoEquilibrium { .. } | LiftsOff { .. }) => unknown(load, T::zero()),
             _ => return Err(error.clone()),
-        })
+        }))
     }
 
     /// Returns the error for a value that occurs under no load.
-    fn none(&self, enclosure: &Enclosure<T>, fault: Option<ContactError<T>>) -> ContactError<T> {
-        let (wanted, Enclosure { low, high }) = (self.wanted, *enclosure);
-        match (fault, low, high, self.quantity) {
-            (Some(_), Some([load, approach]), Some(_), Quantity::Approach { .. })
-                if approach > T::zero() =>
-            {
-                ContactError::Solve(SolveError::ApproachTooLarge { wanted, approach, load })
+    fn none(&mut self) -> ContactError<T> {
+        let (wanted, near, half_width) =
+            (self.wanted, self.whole().left, self.whole().half_width());
+        let own = self.quantity.none(self).or(self.fault.take());
+        own.unwrap_or_else(|| match self.high {
+            Some(Point { load, value: above, .. }) => {
+                let below = self.low.map_or(T::zero(), |low| low.value);
+                SolveError::InJump { wanted, load, below, above }.into()
             }
-            (Some(error), ..) => error,
-            // The peak is too large under any load.
-            (None, None, high, Quantity::Peak) => {
-                let half_width = self.work.workspace.hull().unwrap_or(self.whole()).half_width();
-                let found = high.map_or(T::of(f64::NAN), |[_, found]| found);
-                ContactError::Solve(SolveError::NoPeak { wanted, half_width, found })
-            }
-            (None, low, Some([load, above]), _) => {
-                let below = low.map_or(T::zero(), |[_, below]| below);
-                ContactError::Solve(SolveError::InJump { wanted, load, below, above })
-            }
-            (None, _, None, _) => {
-                let whole = self.whole();
-                ContactError::Solve(SolveError::NoEquilibrium {
-                    half_width: whole.half_width(),
-                    near: whole.left,
-                })
-            }
-        }
+            None => SolveError::NoEquilibrium { half_width, near }.into(),
+        })
+    }
+
+    /// Returns the interval of the contacts found last, or that of the bodies.
+    fn hull(&self) -> Interval<T> {
+        self.work.workspace.hull().unwrap_or(self.whole())
     }
 
     fn whole(&self) -> Interval<T> {

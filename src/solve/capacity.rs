@@ -30,7 +30,7 @@ const MAX_WIDTHS: usize = 700;
 /// Widest balanced contact.
 #[derive(Clone, Copy)]
 pub(super) struct Capacity<T> {
-    pub on: Interval<T>,
+    pub half_width: T,
     /// End of the bodies that the contact reaches.
     pub end: T,
     pub load: T,
@@ -42,44 +42,37 @@ impl<T: Real> Capacity<T> {
     /// Returns the zero capacity of bodies that first touch at an end.
     pub fn nothing(end: T) -> Self {
         let zero = T::zero();
-        Self { on: Interval { left: end, right: end }, end, load: zero, peak: zero }
+        Self { half_width: zero, end, load: zero, peak: zero }
     }
 
     /// Returns the error for a load beyond the capacity.
     pub fn too_short(&self, load: T) -> ContactError<T> {
-        let Self { on, end, load: carried, peak } = *self;
-        ContactError::Solve(SolveError::DomainTooShort {
-            end,
-            carried,
-            load,
-            half_width: on.half_width(),
-            peak,
-            kappa_is_default: false,
-        })
+        let (Self { half_width, end, load: carried, peak }, kappa_is_default) = (*self, false);
+        SolveError::DomainTooShort { end, carried, load, half_width, peak, kappa_is_default }.into()
     }
 
     /// Returns the error for a width that has no room on the bodies.
     pub fn too_wide(&self, wanted: T) -> ContactError<T> {
-        let Self { on, end, load, peak } = *self;
-        ContactError::Solve(SolveError::HalfWidthTooLarge {
-            wanted,
-            half_width: on.half_width(),
-            end,
-            load,
-            peak,
-            kappa_is_default: false,
-        })
+        let (Self { half_width, end, load, peak }, kappa_is_default) = (*self, false);
+        SolveError::HalfWidthTooLarge { wanted, half_width, end, load, peak, kappa_is_default }
+            .into()
+    }
+
+    /// Returns the error for a peak that takes more room than there is on the bodies.
+    pub fn too_high(&self, wanted: T) -> ContactError<T> {
+        let (Self { half_width, end, load, peak: found }, kappa_is_default) = (*self, false);
+        SolveError::PeakTooHigh { wanted, half_width, found, end, load, kappa_is_default }.into()
     }
 }
 
-/// Returns the balanced contact that reaches one of the ends; `None` if there is none, as for
-/// bodies that do not open towards their ends.
+/// Returns the balanced contact that reaches one of the ends, as an interval and a capacity; `None`
+/// if there is none, as for bodies that do not open towards their ends.
 pub(super) fn capacity<T: Real>(
     contact: &Contact<'_, T>,
     conditions: &Conditions<T>,
     ends: Ends<T>,
     cost: &mut Cost,
-) -> Option<Capacity<T>> {
+) -> Option<(Interval<T>, Capacity<T>)> {
     let Ends { left, right } = ends;
     let mut integrator = Panels::FULL.integrator().ok()?;
     let mut rough = Panels { tolerance: ROUGH_TOLERANCE }.integrator().ok()?;
@@ -96,21 +89,18 @@ pub(super) fn capacity<T: Real>(
         let free = conditions.edges.map(|edge| edge.is_free());
         let load_case = LoadCase { kappa: conditions.kappa, load, free };
         let peak = if fixed == Ends::both(None) {
-            largest_pressure(&*integrator, &contact.gap, &load_case, (0, on), &mut Cost::default())
-                .ok()?
-                .1
-                .value
+            let (gap, cost) = (&contact.gap, &mut Cost::default());
+            largest_pressure(&*integrator, gap, &load_case, (0, on), cost).ok()?.1.value
         } else {
             T::one() / T::zero()
         };
-        Some(Capacity { on, end: ends[side], load, peak })
+        Some((on, Capacity { half_width: on.half_width(), end: ends[side], load, peak }))
     });
     *cost += integrator.cost() + rough.cost();
     // Without adhesion, a contact in total tension does not count: the bodies touch next to a
     // hollow.
     let pulled = conditions.edges.are_adhesive();
-    let bears = |found: &Capacity<T>| found.load.is_finite() && (pulled || found.load > T::zero());
-    capacity.filter(bears)
+    capacity.filter(|(_, found)| found.load.is_finite() && (pulled || found.load > T::zero()))
 }
 
 /// Search among contacts that reach an end.

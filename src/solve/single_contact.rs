@@ -122,9 +122,8 @@ impl<T: Real> Single<'_, '_, T> {
             let Edge::FreeUntil(x) = corners[side] else { continue };
             // The contact is neither held by the corner nor within it.
             if beyond(on, side, x) > T::of(8.0) * T::epsilon() * (x.abs() + on.half_width()) {
-                return Err(
-                    SolveError::NoEquilibrium { half_width: on.half_width(), near: x }.into()
-                );
+                let half_width = on.half_width();
+                return Err(SolveError::NoEquilibrium { half_width, near: x }.into());
             }
         }
         // The bodies were turned before the search.
@@ -166,9 +165,8 @@ impl<T: Real> Single<'_, '_, T> {
             _ => self.start().half_width(),
         };
         if is_one_of_several {
-            return Err(
-                SolveError::NoEquilibrium { half_width, near: self.start().centre() }.into()
-            );
+            let near = self.start().centre();
+            return Err(SolveError::NoEquilibrium { half_width, near }.into());
         }
         // From another start, or on a far wider span, the way to the contact may be blocked.
         for from in [Elsewhere::Low, Elsewhere::FirstContact, Elsewhere::Leaning] {
@@ -369,12 +367,13 @@ impl<T: Real> Single<'_, '_, T> {
             return Ok(());
         }
         let range = contact.gap.range();
-        let bears =
-            self.bears.get_or_insert_with(|| capacity(contact, conditions, range.into(), cost));
+        let bears = self.bears.get_or_insert_with(|| {
+            capacity(contact, conditions, range.into(), cost).map(|(_, bears)| bears)
+        });
         let room = T::one() + T::of(8.0) * T::epsilon();
         match (conditions.given, bears) {
             (Given::Load(load), Some(bears)) if load > bears.load => Err(bears.too_short(load)),
-            (Given::HalfWidth(wanted), Some(bears)) if wanted > bears.on.half_width() * room => {
+            (Given::HalfWidth(wanted), Some(bears)) if wanted > bears.half_width * room => {
                 Err(bears.too_wide(wanted))
             }
             _ => Ok(()),

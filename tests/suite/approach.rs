@@ -2,7 +2,7 @@
 //! field, independent sums over the pressure, and differences of solves.
 #![allow(missing_docs)]
 
-use crate::common::{Profile, graph, quartic, worst};
+use crate::common::{Profile, graph, on_flat, parabola, quartic, worst};
 use crate::integrals::{integral, strength};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::reference::{ClosedForm, Hertz};
@@ -490,6 +490,59 @@ fn an_approach_that_the_bodies_do_not_bear_is_refused_with_the_largest() {
 
 /// Next to a contact the surface may move away from a point close below it. The bodies do not: the
 /// gap closes.
+/// Between references at lengths ℓ the approach to a parabola grows up to L = 2ℓ: dδ/dF goes like
+/// ln(2ℓ/L).
+#[test]
+fn an_approach_that_falls_is_sought_where_it_still_grows() {
+    let contact = on_flat(parabola(1.0)).materials(STEEL, STEEL, PlaneState::Strain);
+    let length = Reference::Length(0.1);
+    let references = References { x: 0.0, lower: length, upper: length };
+    let most = contact.solve(Control::HalfWidth(0.2)).unwrap();
+    let largest = most.approach(&references).unwrap().bodies;
+    for share in [0.01, 0.5, 0.999, 1.0 + 1e-9, 1.1, 3.0, 30.0] {
+        let approach = share * largest;
+        match contact.solve(Control::Approach { approach, references }) {
+            Ok(found) => {
+                let is = found.approach(&references).unwrap().bodies;
+                assert!((is / approach - 1.0).abs() < 1e-12, "{share}: {found}");
+                assert!(share < 1.0 && found.a() < 0.2, "{share}: {found}");
+            }
+            Err(ContactError::Solve(SolveError::Falls { quantity, load, rate })) => {
+                assert!(share > 1.0 && rate <= 0.0 && quantity == "approach", "{share}: {rate}");
+                assert!((load / most.load() - 1.0).abs() < 1e-3, "{share}: {load}");
+            }
+            Err(error) => panic!("{share}: {error}"),
+        }
+    }
+}
+
+/// A rate that is positive has been so under all smaller loads, whatever the reference and however
+/// many contacts are born.
+#[test]
+fn the_rate_of_an_approach_never_grows_with_the_load() {
+    let [compressible, incompressible] = [0.0, 0.5].map(|ratio| Material::elastic(1.0, ratio));
+    for (waves, steep) in [(0.0, 0.0), (7.0, 0.5), (13.0, 2.0), (31.0, 6.0)] {
+        let tall = steep / f64::max(waves * waves, 1.0);
+        let body = graph(-1.0, 1.0, move |x: f64| {
+            let (sin, cos) = (waves * x + 0.4).sin_cos();
+            [x * x / 2.0 + tall * cos, x - tall * waves * sin]
+        });
+        let contact = on_flat(body).materials(compressible, incompressible, PlaneState::Strain);
+        let loads = (0..40).map(|i| 1e-5 * 1.2f64.powi(i));
+        let solutions: Vec<_> = loads.map(|f| contact.solve(Control::Load(f)).unwrap()).collect();
+        let depths = [1e-3, 1e-2, 1.0].map(Reference::Depth);
+        for reference in depths.into_iter().chain([Reference::Disc(1.0), Reference::Length(1e-2)]) {
+            for x in [-0.3, 0.0, 0.1] {
+                let to = References { x, lower: reference, upper: reference };
+                let rates = solutions.iter().map(|at| 1.0 / at.stiffness(&to).unwrap());
+                let rates: Vec<f64> = rates.collect();
+                let falls = rates.windows(2).all(|pair| pair[1] <= pair[0] + 1e-9 * pair[0].abs());
+                assert!(falls, "{waves}, {to:?}: {rates:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn bodies_come_nearer_with_every_load_wherever_it_is_measured() {
     let parabola: Profile = Box::new(Parabola::new(1.0, [-3.0, 3.0]).unwrap());

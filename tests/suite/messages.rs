@@ -253,8 +253,8 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["approach of 1.5", "carry 32.5", "approach of 2.5"],
         ),
         (
-            ContactError::Solve(SolveError::ApproachFalls { load, rate: -1.5 }),
-            &["load 32.5", "-1.5", "deeper"],
+            ContactError::Solve(SolveError::Falls { quantity: "approach", load, rate: -1.5 }),
+            &["approach", "load 32.5", "-1.5", "ask for less", "give the load", "deeper"],
         ),
         (
             ContactError::Evaluation(EvaluationError::OutsideTable {

@@ -990,18 +990,21 @@ class ApproachTooLargeError(SolveError):
     load: float
 
 
-class ApproachFallsError(SolveError):
-    """The approach to these references does not grow with the load, so that it does not determine
-    the load.
+class FallsError(SolveError):
+    """The quantity falls while the load grows, before it has the value asked for, so that it does
+    not determine the load.
 
     Attributes
     ----------
+    quantity : str
+        The quantity that is given: an approach.
     load : float
-        Load at which the approach falls.
+        Least load known under which it falls.
     rate : float
-        dδ/dF there, negative or zero.
+        Its derivative by the load there, negative or zero.
     """
 
+    quantity: str
     load: float
     rate: float
 

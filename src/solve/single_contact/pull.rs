@@ -38,14 +38,14 @@ impl<T: Real> Single<'_, '_, T> {
             ) => {
                 let ends = self.contact.ends();
                 let widest = capacity(self.contact, &self.conditions, ends, self.cost);
-                let widest = widest.ok_or(error)?;
+                let (on, widest) = widest.ok_or(error)?;
                 let too_short = widest.too_short(load);
                 if widest.load <= load {
                     return Err(too_short);
                 }
                 // Unless this contact grows with its load, the one sought is wider.
                 fault = Some(too_short);
-                (widest.load, widest.on)
+                (widest.load, on)
             }
             Err(error) => return Err(error),
         };

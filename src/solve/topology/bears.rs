@@ -247,7 +247,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 largest_pressure(integrator, gap, &load_case, contact, self.work.cost).ok()?;
             peak = peak.max(largest.value);
         }
-        Some(Capacity { on, end: self.contact.ends()[side], load, peak })
+        let (half_width, end) = (on.half_width(), self.contact.ends()[side]);
+        Some(Capacity { half_width, end, load, peak })
     }
 
     /// Returns a load under which cells reach no end of the bodies, and one not much larger under

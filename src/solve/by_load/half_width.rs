@@ -1,0 +1,37 @@
+//! Half-width of several contacts, whose rate `(da/dF + db/dF)/2` is never negative.
+
+use super::{ByLoad, Quantity, Value};
+use crate::gap::Asked;
+use crate::solution::{ContactState, LoadRates};
+use crate::solve::Contact;
+use crate::solve::capacity::Capacity;
+use crate::{ContactError, Ends, Real};
+
+/// Half the distance from the first limit to the last.
+pub(in super::super) struct HalfWidth;
+
+impl<T: Real> Quantity<T> for HalfWidth {
+    fn first_load(&self, search: &mut ByLoad<'_, '_, T>) -> Result<T, ContactError<T>> {
+        search.surveyed(Asked::HalfWidth(search.wanted), false)
+    }
+
+    fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, T>) -> Value<T> {
+        let (on, load, peak) = (found.interval, found.load, T::one() / T::zero());
+        let half_width = on.half_width();
+        // No load widens a contact from corner to corner.
+        if found.free == Ends::both(false) && half_width < search.wanted {
+            let widest = Capacity { half_width, end: on.right, load, peak };
+            return Err(widest.too_wide(search.wanted));
+        }
+        let rates = LoadRates::new(search.solved(found))?;
+        Ok([half_width, T::of(0.5) * (rates.a + rates.b), T::zero()])
+    }
+
+    fn may_fall(&self, _: &Contact<'_, T>) -> bool {
+        false
+    }
+
+    fn of_widest(&self, wanted: T, widest: &Capacity<T>) -> Option<(T, ContactError<T>)> {
+        Some((widest.half_width, widest.too_wide(wanted)))
+    }
+}
