@@ -13,7 +13,9 @@ use crate::gap::{Cost, Gap, Shape};
 use crate::material::{Elasticity, Material, PlaneState};
 use crate::quadrature::{Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
-use crate::{ContactError, Ends, InputError, Interval, ParametricProfile, Real, SolveError};
+use crate::{
+    ContactError, Ends, InputError, Interval, ParametricProfile, Real, References, SolveError,
+};
 use edges::{Conditions, Given};
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -318,12 +320,11 @@ impl<'b, T: Real> Contact<'b, T> {
         self.elasticity()?;
         let kappa = self.kappa;
         if !(kappa.is_finite() && kappa > T::zero()) {
-            return Err(match self.stiffness {
-                Stiffness::Modulus(modulus) => {
-                    ContactError::Input(InputError::InvalidModulus { modulus })
-                }
-                _ => ContactError::Input(InputError::InvalidKappa { kappa }),
-            });
+            let fault = match self.stiffness {
+                Stiffness::Modulus(modulus) => InputError::InvalidModulus { modulus },
+                _ => InputError::InvalidKappa { kappa },
+            };
+            return Err(fault.into());
         }
         if let Some(start) = self.start {
             check(start)?;
@@ -374,10 +375,8 @@ impl<'b, T: Real> Contact<'b, T> {
                     return Err(InputError::InvalidAdhesion { work }.into());
                 }
                 Edge::Fixed(x) | Edge::FreeUntil(x) if !x.is_finite() => {
-                    let [left, right] = [x, x];
-                    return Err(
-                        InputError::InvalidLimits { interval: Interval { left, right } }.into()
-                    );
+                    let interval = Interval { left: x, right: x };
+                    return Err(InputError::InvalidLimits { interval }.into());
                 }
                 _ => {}
             }

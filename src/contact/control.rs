@@ -1,6 +1,6 @@
 //! The prescribed quantity.
 
-use crate::References;
+use super::References;
 
 /// Prescribed quantity of the contact: the load, or another number from which the load follows
 /// ([`Solution::load`](crate::Solution::load)).

@@ -6,6 +6,8 @@ pub mod paper;
 #[path = "../../benches/shared/scenes.rs"]
 pub mod speed_scenes;
 
+pub mod controls;
+
 use linecontact::search::{Bracket, LimitSearch, Root, SearchError};
 use linecontact::{
     Contact, Curve, CurvePoint, Flat, Interval, ParametricProfile, Piece, Piecewise, Real, Solution,

@@ -3,10 +3,9 @@
 
 use crate::common;
 
-use common::{Profile, Shares, graph, join, on_flat, quartic};
+use common::{Profile, Shares, controls::controls_of, graph, join, on_flat, quartic};
 use linecontact::{
-    Contact, ContactError, Control, Edge, Flat, Material, PlaneState, Reference, References,
-    Solution, SolveError,
+    Contact, ContactError, Control, Edge, Flat, Material, PlaneState, Solution, SolveError,
 };
 use std::f64::consts::PI;
 
@@ -66,8 +65,6 @@ fn a_value_in_a_jump_is_refused_with_both_sides() {
 #[test]
 fn what_a_load_gives_finds_the_load_again() {
     let steel = Material::elastic(1.0, 0.3);
-    let references =
-        References { x: 0.0, lower: Reference::Depth(9.0), upper: Reference::Depth(9.0) };
     let mut several = 0;
     for (waves, steep) in [(7.0, 0.5), (13.0, 2.0), (31.0, 6.0), (57.0, 12.0), (90.0, 20.0)] {
         let amplitude = steep / (waves * waves);
@@ -79,12 +76,7 @@ fn what_a_load_gives_finds_the_load_again() {
         for load in [1e-5, 1e-4, 1e-3, 1e-2] {
             let due = contact.solve(Control::Load(load)).unwrap();
             several += usize::from(due.intervals().len() > 1);
-            let approach = due.approach(&references).unwrap().bodies;
-            for control in [
-                Control::HalfWidth(due.hull().half_width()),
-                Control::PeakPressure(due.peak().unwrap().pressure),
-                Control::Approach { approach, references },
-            ] {
+            for control in controls_of(&due) {
                 let found = contact.solve(control);
                 let found = found.unwrap_or_else(|e| panic!("{waves} {load} {control:?}: {e}"));
                 let off = (found.load() / load - 1.0).abs();

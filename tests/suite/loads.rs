@@ -1,10 +1,12 @@
-//! The four ways to prescribe the pressing lead to the same contact.
+//! All ways to prescribe the pressing lead to the same contact.
 #![allow(missing_docs)]
 
 use crate::common;
 
 use approx::assert_relative_eq;
-use common::{assert_close, graph, on_flat, paper, parabola, power, reference};
+use common::{
+    assert_close, controls::controls_of, graph, on_flat, paper, parabola, power, reference,
+};
 use linecontact::search::Brent;
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, InputError, Interval, SolveError,
@@ -28,7 +30,8 @@ fn check(contact: &Contact<f64>, known: &Known, tolerance: f64) {
         // The peak is known to rounding, and so is the resulting half-width.
         (Control::PeakPressure(peak), 10.0),
     ];
-    for (load, factor) in ways {
+    let found = controls_of(&contact.solve(Control::Load(c / PI)).unwrap());
+    for (load, factor) in ways.into_iter().chain(found.into_iter().map(|control| (control, 20.0))) {
         let solution = contact.solve(load).unwrap_or_else(|error| panic!("{load:?}: {error}"));
         let tolerance = factor * tolerance;
         assert_relative_eq!(solution.a(), a, epsilon = 0.0, max_relative = tolerance);

@@ -2,13 +2,13 @@
 //! known one is never reported as checked, and a contact near it always is.
 #![allow(missing_docs)]
 
-use crate::common::{Strategy, graph, on_flat};
+use crate::common::{Strategy, controls::controls_of, graph, on_flat};
 use linecontact::profile::Parabola;
 use linecontact::quadrature::Quadrature;
 use linecontact::search::{Bisection, Brent, LimitSearch, StoppingCriteria};
 use linecontact::{
     Contact, Control, Edge, EdgePressure, Flat, Material, Midpoint, Outcome, Panels, PlaneState,
-    Reference, References, Solution,
+    Solution,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -62,22 +62,6 @@ fn quadratures() -> Named<Box<dyn Quadrature<f64>>> {
     all
 }
 
-const TO: References<f64> =
-    References { x: 0.0, lower: Reference::Depth(1.0), upper: Reference::Depth(1.0) };
-
-/// Returns the controls for a contact of half-width 0.2 of y = x²/2; the approach is that of the
-/// default solve.
-fn controls(approach: f64) -> [Control<f64>; 6] {
-    [
-        Control::Load(LOAD),
-        Control::HalfWidth(L),
-        Control::PeakPressure(L / PI),
-        Control::Approach { approach, references: TO },
-        Control::Moment { load: LOAD, moment: 0.0, about: 0.0 },
-        Control::CentreOfPressure { load: LOAD, at: 0.0 },
-    ]
-}
-
 /// Tells whether a solution reports that it is checked, after asserting that all its reports agree.
 fn says(name: &str, solution: &Solution<f64>) -> bool {
     let checked = solution.report().is_checked();
@@ -106,14 +90,14 @@ fn what_is_said_is_what_was_checked() {
     let mut counts = [0; 3];
     for (body, contact) in [("declared", declared), ("aside", aside)] {
         let contact = contact.materials(soft, soft, PlaneState::Stress);
-        let approach = contact.solve(Control::Load(LOAD)).unwrap().approach(&TO).unwrap().bodies;
+        let controls = controls_of(&contact.solve(Control::Load(LOAD)).unwrap());
         for (by, search) in &searches {
             for (rule, quadrature) in &quadratures {
                 let mut contact = contact.clone().quadrature(&**quadrature);
                 if let Some(search) = search {
                     contact = contact.limit_search(&**search);
                 }
-                for control in controls(approach) {
+                for &control in &controls {
                     let name = format!("{body}, {by}, {rule}, {control:?}");
                     let Ok(solution) = contact.solve(control) else {
                         counts[0] += 1;

@@ -1,7 +1,7 @@
 //! A warm solver on rough bodies, with many contacts that merge and part from load to load.
 #![allow(missing_docs)]
 
-use crate::common::Shares;
+use crate::common::{Shares, controls::controls_of};
 use linecontact::profile::Spline;
 use linecontact::{
     Contact, ContactError, Control, Flat, Material, PlaneState, Reference, References, Solution,
@@ -153,6 +153,13 @@ fn under_any_other_control_too() {
                 .enumerate()
         {
             found[i] += check(&scene, &controls, unique, &name);
+        }
+        // Of each kind of control, those of some loads.
+        let loads = by_factors(20.0, 200.0, 5).map(Control::Load);
+        let of: Vec<_> = loads.map(|load| controls_of(&scene.solve(load).unwrap())).collect();
+        for i in 0..of[0].len() {
+            let controls: Vec<_> = of.iter().map(|controls| controls[i]).collect();
+            assert_eq!(check(&scene, &controls, false, &name), 15, "{name}, {:?}", controls[0]);
         }
     }
     println!("{found:?}");
