@@ -18,38 +18,17 @@
 //! bracket. None compares with an absolute number unless told to: multiplying `x` and `f`
 //! by powers of two gives the same iterates, bit for bit, and the same counts.
 
-/// Strategy whose only settings are its stopping criteria.
-macro_rules! strategy {
-    ($(#[$documentation:meta])* $name:ident) => {
-        $(#[$documentation])*
-        #[derive(Clone, Copy, Debug, Default, PartialEq)]
-        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-        #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-        pub struct $name {
-            /// Stopping criteria.
-            pub tolerance: StoppingCriteria,
-        }
-
-        impl $name {
-            /// All digits of the number type.
-            pub const DEFAULT: Self = Self { tolerance: StoppingCriteria::FULL };
-        }
-    };
-}
-
 mod bisection;
 mod bracket_state;
 mod fallible;
 mod newton;
 mod roots_adapter;
 
-pub use bisection::Bisection;
 pub use fallible::{TryFindError, try_find, try_find_with_slope};
-pub use newton::Newton;
-pub use roots_adapter::{Brent, Secant};
 
 use crate::Real;
 use crate::rounded::{apart, six};
+use bracket_state::BracketState;
 use thiserror::Error;
 
 /// Strategy that finds a zero of a function.
@@ -88,27 +67,100 @@ pub trait LimitSearch<T: Real>: Send + Sync {
     }
 }
 
-/// Returns the strategies of this module, each with its name and with these stopping criteria.
-///
-/// ```
-/// use linecontact::search::{Bracket, StoppingCriteria, strategies};
-///
-/// for (name, search) in strategies(StoppingCriteria::FULL) {
-///     let root = search.find(&mut |x| x * x - 2.0, &Bracket::new(1.0, 2.0))?;
-///     assert!((root.x / 2f64.sqrt() - 1.0).abs() < 1e-15, "{name}");
-/// }
-/// # Ok::<(), linecontact::search::SearchError<f64>>(())
-/// ```
-#[must_use]
-pub fn strategies<T: Real>(
-    tolerance: StoppingCriteria,
-) -> Vec<(&'static str, Box<dyn LimitSearch<T>>)> {
-    vec![
-        ("bisection", Box::new(Bisection { tolerance })),
-        ("secant", Box::new(Secant { tolerance })),
-        ("brent", Box::new(Brent { tolerance })),
-        ("newton", Box::new(Newton { tolerance })),
-    ]
+/// Makes the strategies, whose only settings are their stopping criteria, of their names and the
+/// functions by which they narrow the sign change.
+macro_rules! strategies {
+    ($($(#[$documentation:meta])* $name:literal $strategy:ident: $narrow:path;)*) => {
+        $(
+            $(#[$documentation])*
+            #[derive(Clone, Copy, Debug, Default, PartialEq)]
+            #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+            #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+            pub struct $strategy {
+                /// Stopping criteria.
+                pub tolerance: StoppingCriteria,
+            }
+
+            impl $strategy {
+                /// All digits of the number type.
+                pub const DEFAULT: Self = Self { tolerance: StoppingCriteria::FULL };
+            }
+
+            impl<T: Real> LimitSearch<T> for $strategy {
+                fn find(
+                    &self,
+                    f: &mut dyn FnMut(T) -> T,
+                    bracket: &Bracket<T>,
+                ) -> Result<Root<T>, SearchError<T>> {
+                    let mut f = |x| (f(x), None);
+                    let mut state = BracketState::new(&mut f, bracket, self.tolerance)?;
+                    $narrow(&mut state)?;
+                    Ok(state.root())
+                }
+
+                fn find_with_slope(
+                    &self,
+                    f: &mut dyn FnMut(T) -> (T, T),
+                    bracket: &Bracket<T>,
+                ) -> Result<Root<T>, SearchError<T>> {
+                    let with_slope = |(value, slope)| (value, Some(slope));
+                    let mut f = |x| with_slope(f(x));
+                    let mut state = BracketState::new(&mut f, bracket, self.tolerance)?;
+                    $narrow(&mut state)?;
+                    Ok(state.root())
+                }
+            }
+        )*
+
+        /// Returns the strategies of this module by name, with these stopping criteria.
+        ///
+        /// ```
+        /// use linecontact::search::{Bracket, StoppingCriteria, strategies};
+        ///
+        /// for (name, search) in strategies(StoppingCriteria::FULL) {
+        ///     let root = search.find(&mut |x| x * x - 2.0, &Bracket::new(1.0, 2.0))?;
+        ///     assert!((root.x / 2f64.sqrt() - 1.0).abs() < 1e-15, "{name}");
+        /// }
+        /// # Ok::<(), linecontact::search::SearchError<f64>>(())
+        /// ```
+        #[must_use]
+        pub fn strategies<T: Real>(
+            tolerance: StoppingCriteria,
+        ) -> Vec<(&'static str, Box<dyn LimitSearch<T>>)> {
+            vec![$(($name, Box::new($strategy { tolerance }))),*]
+        }
+    };
+}
+
+strategies! {
+    /// Bisection: one bit of `x` for each evaluation, whatever the function.
+    "bisection" Bisection: bisection::bisect;
+
+    /// Secant method of the `roots` crate, kept inside the bracket: where it would step out, meets
+    /// two equal values or crawls, the bracket is halved and the method starts again.
+    "secant" Secant: roots_adapter::secant;
+
+    /// Brent's method: inverse quadratic interpolation where it converges, halving where not.
+    ///
+    /// Brent, *Algorithms for Minimization without Derivatives* (1973), chapter 4, as
+    /// implemented by the `roots` crate.
+    "brent" Brent: roots_adapter::brent;
+
+    /// Newton's method with the slope that comes with the value, kept inside the sign change.
+    ///
+    /// If the function gives no slope, the chord through the last two points stands in for it (a
+    /// safeguarded secant). A step that would leave the sign change, or that did not halve the step
+    /// before last, is replaced by a halving of the bracket.
+    ///
+    /// The value of a function that cancels large terms has noise, and near the root the steps then
+    /// stop shrinking long before they reach the tolerance. The search ends there. (It looks for
+    /// noise only if the slope is known, for a chord shows no such regularity.) A step counts as
+    /// noise if the steps have shrunk a hundredfold at once, as they do close to a simple root, and
+    /// it then fails to shrink though it is tiny: below the square root of the rounding unit
+    /// compared with `x`, or with a value at the rounding of both values at the ends of the
+    /// bracket. A value of that size counts as noise, too, if it stays the same where the slope
+    /// says that it should change.
+    "newton" Newton: newton::newton;
 }
 
 /// Interval over which a function changes its sign, with known values and a guess.

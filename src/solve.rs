@@ -19,6 +19,8 @@ mod one_by_one;
 mod partial_slip;
 mod signorini_check;
 mod single_contact;
+#[cfg(test)]
+mod tests;
 mod topology;
 
 use crate::contact::{Contact, Control, EdgePressure, check, check_positive, check_within, edges};
@@ -163,8 +165,9 @@ fn find_under<T: Real>(
 ) -> Result<ContactState<T>, ContactError<T>> {
     match (control, contact.edge_pressure) {
         (Control::Load(load), Some(wanted)) => {
-            work.workspace.report.add(Start::Middle, Outcome::Unchecked);
-            by_edge_pressure(contact, wanted, load, work)
+            let found = by_edge_pressure(contact, wanted, load, work);
+            let start = contact.start.map_or(Start::Middle, |_| Start::Given);
+            work.workspace.report.end(start, found.map(|found| (Outcome::Unchecked, found)))
         }
         (Control::Load(load), None) => topology::find(contact, contact.under(load)?, work),
         (Control::HalfWidth(half_width), _) => {

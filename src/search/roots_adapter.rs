@@ -10,39 +10,18 @@
 //! steps outward from it supply the minimum step.
 
 use super::bracket_state::BracketState;
-use super::{Bracket, LimitSearch, Root, SearchError, StoppingCriteria};
+use super::{SearchError, StoppingCriteria};
 use crate::Real;
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-strategy! {
-    /// Brent's method: inverse quadratic interpolation where it converges, halving where not.
-    ///
-    /// Brent, *Algorithms for Minimization without Derivatives* (1973), chapter 4, as
-    /// implemented by the `roots` crate.
-    Brent
+pub(super) fn brent<T: Real>(state: &mut BracketState<'_, T>) -> Result<(), SearchError<T>> {
+    run(Method::Brent, state)
 }
 
-strategy! {
-    /// Secant method of the `roots` crate, kept inside the bracket: where it would step out, meets
-    /// two equal values or crawls, the bracket is halved and the method starts again.
-    Secant
+pub(super) fn secant<T: Real>(state: &mut BracketState<'_, T>) -> Result<(), SearchError<T>> {
+    run(Method::Secant, state)
 }
-
-macro_rules! proposed_by_roots {
-    ($($strategy:ident)*) => {$(
-        impl<T: Real> LimitSearch<T> for $strategy {
-            fn find(
-                &self,
-                f: &mut dyn FnMut(T) -> T,
-                bracket: &Bracket<T>,
-            ) -> Result<Root<T>, SearchError<T>> {
-                run(Method::$strategy, f, bracket, self.tolerance)
-            }
-        }
-    )*};
-}
-proposed_by_roots! { Brent Secant }
 
 #[derive(Clone, Copy, PartialEq)]
 enum Method {
@@ -54,17 +33,10 @@ enum Method {
 /// needs fewer. (Brent's method halves by itself.)
 const PATIENCE: usize = 12;
 
-fn run<T: Real>(
-    method: Method,
-    f: &mut dyn FnMut(T) -> T,
-    bracket: &Bracket<T>,
-    tolerance: StoppingCriteria,
-) -> Result<Root<T>, SearchError<T>> {
-    let mut f = |x| (f(x), None);
-    let mut state = BracketState::new(&mut f, bracket, tolerance)?;
+fn run<T: Real>(method: Method, state: &mut BracketState<'_, T>) -> Result<(), SearchError<T>> {
     while !state.done() {
         let width = state.half_width();
-        if propose(method, &mut state)? == Ended::Close {
+        if propose(method, state)? == Ended::Close {
             state.close_in()?;
         }
         // Whatever a run did, the bracket is about halved before the next.
@@ -72,7 +44,7 @@ fn run<T: Real>(
             break;
         }
     }
-    Ok(state.root())
+    Ok(())
 }
 
 /// Reason for the end of a run of the `roots` crate.

@@ -109,7 +109,18 @@ impl Report {
         Self { attempts: [attempt; MAX_ATTEMPTS], count: 0 }
     }
 
-    pub(crate) fn add(&mut self, start: Start, outcome: Outcome) {
+    /// Ends an attempt: enters its outcome, and returns its result.
+    pub(crate) fn end<T: Real, R>(
+        &mut self,
+        start: Start,
+        attempt: Result<(Outcome, R), ContactError<T>>,
+    ) -> Result<R, ContactError<T>> {
+        let outcome = attempt.as_ref().map_or_else(Outcome::of, |&(outcome, _)| outcome);
+        self.add(start, outcome);
+        attempt.map(|(_, result)| result)
+    }
+
+    fn add(&mut self, start: Start, outcome: Outcome) {
         self.count = (self.count + 1).min(MAX_ATTEMPTS);
         self.attempts[self.count - 1] = Attempt { start, outcome };
     }

@@ -44,6 +44,9 @@ pub(super) fn find<T: Real>(
     })
 }
 
+/// Contact found, or the reason why not.
+type Found<T> = Result<ContactState<T>, ContactError<T>>;
+
 /// Search for the contacts.
 struct Search<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
@@ -80,15 +83,17 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         if self.contact.single_interval {
             let start = self.start_of_one(false);
             let found = self.one(start, false);
-            self.report(start, Outcome::Unchecked);
-            return found;
+            let attempt = found.map(|found| (Outcome::Unchecked, found));
+            return self.work.workspace.report.end(start, attempt);
         }
         if self.work.workspace.last.len() > 1 {
             return self.several(None);
         }
         // If the gap has several valleys, heights show at less cost why a search for one contact
         // fails.
-        if self.has_valleys()? {
+        let (start, has_valleys) = (self.start_of_one(true), self.has_valleys());
+        // The survey is the beginning of an attempt.
+        if has_valleys.or_else(|error| self.work.workspace.report.end(start, Err(error)))? {
             match self.several(None) {
                 Err(error)
                     if !matches!(error, ContactError::Solve(SolveError::DomainTooShort { .. })) => {
@@ -102,49 +107,51 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         }
     }
 
-    fn report(&mut self, start: Start, outcome: Outcome) {
-        self.work.workspace.report.add(start, outcome);
-    }
-
     /// Seeks one contact and checks it. The inner error is one that several contacts may avoid.
-    fn one_checked(&mut self) -> Result<Result<ContactState<T>, ContactError<T>>, ContactError<T>> {
+    fn one_checked(&mut self) -> Result<Found<T>, ContactError<T>> {
         let (turns, is_said) = (self.turns(), self.contact.gap.is_convex());
         let looks = !is_said && !turns && self.contact.edges.are_sought();
-        let mut start = self.start_of_one(looks);
-        let mut found = self.one(start, looks);
+        let mut found = self.attempt_one(looks)?;
         // The first search had no survey of the bodies.
         if is_said
             && !turns
             && matches!(found, Err(ContactError::Solve(SolveError::NoEquilibrium { .. })))
         {
-            self.report(start, Outcome::NotFound);
-            start = self.start_of_one(true);
-            found = self.one(start, true).or(found);
+            found = self.attempt_one(true)?;
         }
-        let fault = match found {
-            Ok(found) => match self.checked(&found)? {
-                None => {
-                    self.report(start, Outcome::Passed);
-                    return Ok(Ok(found));
-                }
-                // If the bodies turn, more contacts may press at the corner.
-                Some(error @ ContactError::Solve(SolveError::LiftsOff { .. }))
-                    if self.is_convex() || !turns =>
-                {
-                    return Err(error);
-                }
-                Some(error) => error,
-            },
-            Err(error) if self.is_of_any_number(&error)? => return Err(error),
-            Err(error) => error,
+        match found {
+            Err(error) if self.is_of_any_number(&error)? => Err(error),
+            found => Ok(found),
+        }
+    }
+
+    /// Makes an attempt with one contact; the inner error is that of the search, or a fault of the
+    /// contact found.
+    fn attempt_one(&mut self, looks: bool) -> Result<Found<T>, ContactError<T>> {
+        let start = self.start_of_one(looks);
+        let attempt = match self.one(start, looks) {
+            Ok(found) => self.checked(&found).map(|fault| fault.map_or(Ok(found), Err)),
+            Err(error) => Ok(Err(error)),
         };
-        self.report(start, Outcome::of(&fault));
-        Ok(Err(fault))
+        let outcome =
+            |found: &Found<T>| found.as_ref().map_or_else(Outcome::of, |_| Outcome::Passed);
+        let attempt = attempt.map(|found| (outcome(&found), found));
+        self.work.workspace.report.end(start, attempt)
     }
 
     /// Tells whether a search for several contacts would fail with the error of this search for
     /// one.
     fn is_of_any_number(&mut self, error: &ContactError<T>) -> Result<bool, ContactError<T>> {
+        match error {
+            ContactError::Solve(SolveError::Tension { .. } | SolveError::Overlap { .. }) => {
+                return Ok(false);
+            }
+            // If the bodies turn, more contacts may press at the corner.
+            ContactError::Solve(SolveError::LiftsOff { .. }) => {
+                return Ok(self.is_convex() || !self.turns());
+            }
+            _ => {}
+        }
         if !self.contact.edges.are_sought() || !error.may_be_several() {
             return Ok(true);
         }
@@ -185,11 +192,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
 
     /// Seeks one contact around the last one, if any; without it, from the survey if `looks` is
     /// set.
-    fn one_from(
-        &mut self,
-        last: Option<Interval<T>>,
-        looks: bool,
-    ) -> Result<ContactState<T>, ContactError<T>> {
+    fn one_from(&mut self, last: Option<Interval<T>>, looks: bool) -> Found<T> {
         let (contact, Work { integrator, workspace, cost }) = (self.contact, &mut *self.work);
         let look = workspace.survey_of(&contact.gap).filter(|_| looks);
         let (conditions, start, bears) = (self.conditions, contact.start, None);

@@ -4,7 +4,8 @@
 use crate::common::{self, NanSafe, assert_close, paper, parabola, reference};
 use linecontact::search::{StoppingCriteria, strategies};
 use linecontact::{
-    Contact, ContactError, Control, EdgePressure, Exponents, Flat, Interval, Midpoint, SolveError,
+    Attempt, Contact, ContactError, Control, EdgePressure, Exponents, Flat, Interval, Midpoint,
+    Outcome, SolveError, Start,
 };
 use std::f64::consts::PI;
 
@@ -31,6 +32,8 @@ fn edge_pressures_of_the_exact_solution_give_its_limits() {
         let solution = contact.solve(Control::Load(example.c / PI)).expect(name);
         assert_close(solution.a(), 1.0, 1e-7);
         assert_close(solution.b(), 0.6, 1e-7);
+        let given = Attempt { start: Start::Given, outcome: Outcome::Unchecked };
+        assert_eq!(solution.report().attempts(), [given]);
         // The condition itself, as a user would check it.
         let pressure = solution.pressure().unwrap();
         let at_a = pressure.at(solution.a() - eps_a).unwrap();

@@ -7,13 +7,15 @@ use approx::assert_relative_eq;
 use common::{NanSafe, graph, on_flat, parabola};
 use linecontact::search::{Brent, SearchError, StoppingCriteria};
 use linecontact::{
-    Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, EdgePressure, Flat, InputError,
-    Interval, Midpoint, ParametricProfile, ProfileError, SolveError,
+    Attempt, Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, EdgePressure, Flat,
+    InputError, Interval, Midpoint, Outcome, ParametricProfile, ProfileError, SolveError, Start,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
 use std::cell::Cell;
 use std::f64::consts::PI;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn error(
     lower: &dyn ParametricProfile<f64>,
@@ -459,4 +461,34 @@ fn a_slope_by_x_that_is_wrong() {
     }
     let body = WrongSlope(0.0, Unknown);
     Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap().certify().unwrap();
+}
+
+/// A curve that fails once: the search goes on from another start, and the report has both.
+#[test]
+fn an_attempt_that_an_error_has_ended_is_reported() {
+    let solve = |failing: usize| {
+        let calls = AtomicUsize::new(0);
+        let body = graph(-1.5, 1.5, move |x| {
+            let fails = calls.fetch_add(1, Ordering::Relaxed) == failing;
+            let (sin, cos) = (4.0 * PI * x).sin_cos();
+            let y = x * x / 20.0 - 0.01 * cos;
+            [if fails { f64::NAN } else { y }, x / 10.0 + 0.04 * PI * sin]
+        });
+        Contact::owned(Arc::new(Flat), body.into())?.solve(Control::Load(0.03))
+    };
+    let plain = solve(usize::MAX).unwrap();
+    let passed = Attempt { start: Start::ActiveSet, outcome: Outcome::Passed };
+    assert_eq!(plain.report().attempts(), [passed]);
+    let cost = plain.cost();
+    let mut goes_on = 0;
+    for failing in (0..cost.evaluations + cost.heights).step_by(5) {
+        let Ok(solution) = solve(failing) else { continue };
+        let attempts = solution.report().attempts();
+        if attempts != [passed] {
+            let first = Attempt { outcome: Outcome::NotFound, ..passed };
+            assert_eq!(attempts.first(), Some(&first), "{failing}: {attempts:?}");
+            goes_on += 1;
+        }
+    }
+    assert!(goes_on > 0);
 }

@@ -39,7 +39,7 @@ struct Counts {
     pressures: [usize; 4],
 }
 
-const KEPT: [Counts; 4] = [
+const KEPT: &[Counts] = &[
     Counts {
         search: "bisection",
         edges: [19912, 4948, 4892, 18811, 22980, 18589, 5040, 4929],
@@ -72,7 +72,7 @@ const KEPT: [Counts; 4] = [
 
 /// Asserts that the counts found of each search are those kept of it.
 fn check<const N: usize>(kept: fn(&Counts) -> [usize; N], found: &[(&str, [usize; N])]) {
-    let kept = KEPT.each_ref().map(|of| (of.search, kept(of)));
+    let kept: Vec<_> = KEPT.iter().map(|of| (of.search, kept(of))).collect();
     let counts = |all: &[(_, [usize; N])]| all.iter().flat_map(|&(_, of)| of).collect::<Vec<_>>();
     let agree = |(&kept, &found): (&usize, &usize)| counts_agree(kept as f64, found as f64);
     let same_searches = kept.iter().map(|(of, _)| of).eq(found.iter().map(|(of, _)| of));

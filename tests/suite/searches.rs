@@ -120,11 +120,13 @@ fn known_ends_and_a_guess_save_evaluations() {
 #[test]
 fn typical_costs() {
     // Counts promised by the table in the module's doc.
+    let table = include_str!("../../src/search.rs").to_lowercase();
     let most = [("bisection", 60), ("secant", 14), ("brent", 14), ("newton", 9)];
     for (name, search) in strategies(StoppingCriteria::FULL) {
         let cost = |case: &Case| run(&*search, case, 1.0, 1.0).unwrap().evaluations;
         let simple: Vec<Case> = cases().into_iter().take(3).filter(|c| c.hi < 10.0).collect();
         let (_, most) = most.iter().find(|(of, _)| *of == name).expect(name);
+        assert!(table.contains(&format!("//! | [`{name}`]")), "{name} is not in the table");
         assert!(simple.iter().all(|case| cost(case) <= *most), "{name}");
     }
 }

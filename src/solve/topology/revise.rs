@@ -19,6 +19,7 @@ use super::{Conditions, FIRST_CELLS, Search, Single, Work, Workspace, asked_by};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
 use crate::{ContactError, Edge, Ends, Interval, Real, Side, SolveError};
+use std::ops::ControlFlow;
 
 /// Largest uncertainty of heights, as a share of F/κ, to show by themselves where the bodies
 /// touch: with 400 contacts a twelfth of the load of one.
@@ -39,16 +40,8 @@ const MAX_DOUBLINGS: usize = 6;
 /// square is the first half-width of a contact put at an overlap, as a share of the bodies.
 const CORNER_STEP: f64 = 0.01;
 
-/// Result of a trial of a set of contacts.
-enum Trial<T: Real> {
-    Passed(ContactState<T>),
-    /// Error of the check.
-    Fails(ContactError<T>),
-    /// Reason for the search to end without limits.
-    Stops(Stop<T>),
-    /// Error of the search for a single contact.
-    NotFound(ContactError<T>),
-}
+/// Outcome of an attempt, with the contacts found or the next start.
+type Trial<T> = (Outcome, ControlFlow<ContactState<T>, Start>);
 
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Seeks any number of contacts; `fault` is the error of a search for one.
@@ -73,36 +66,20 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let mut earlier = Vec::new();
         newton.on.clone_from(last);
         for _ in 0..MAX_TRIALS {
-            let [left, right] = self.contact.gap.range();
-            self.contact.gap.check_watch(*self.work.cost, Interval { left, right })?;
-            if start == Start::ActiveSet {
-                if self.runs_out.is_some() {
-                    // More cells find no contact under more load than the bodies bear.
-                    if std::mem::replace(&mut self.has_run_out, true) {
-                        break;
-                    }
-                    if let Some(found) = self.borne(&conditions)? {
-                        return Ok(found);
-                    }
+            if start == Start::ActiveSet && self.runs_out.is_some() {
+                // More cells find no contact under more load than the bodies bear.
+                if std::mem::replace(&mut self.has_run_out, true) {
+                    break;
                 }
-                self.take_cells(&conditions)?;
-            }
-            let (outcome, next) = match self.trial(&conditions)? {
-                Trial::Passed(found) => {
-                    self.report(start, Outcome::Passed);
+                if let Some(found) = self.borne(&conditions)? {
                     return Ok(found);
                 }
-                Trial::Fails(error @ ContactError::Solve(SolveError::LiftsOff { .. })) => {
-                    return Err(error);
-                }
-                Trial::Fails(error) => (Outcome::of(fault.insert(error)), self.mend()),
-                Trial::NotFound(error) => {
-                    fault = Some(error);
-                    (Outcome::NotFound, Start::ActiveSet)
-                }
-                Trial::Stops(stop) => self.revise(stop, start),
+            }
+            let trial = self.trial(start, &conditions, &mut fault);
+            let next = match self.work.workspace.report.end(start, trial)? {
+                ControlFlow::Break(found) => return Ok(found),
+                ControlFlow::Continue(next) => next,
             };
-            self.report(start, outcome);
             let Workspace { newton, before, .. } = &*self.work.workspace;
             // This revision undoes the one before. Unlike the cells, tension is exact.
             let is_undone = is_alike(&newton.on, &earlier);
@@ -138,25 +115,40 @@ impl<T: Real> Search<'_, '_, '_, T> {
         fault.unwrap_or(self.no_balance())
     }
 
-    /// Tries the contacts at hand.
-    fn trial(&mut self, conditions: &Conditions<T>) -> Result<Trial<T>, ContactError<T>> {
+    /// Tries the contacts at hand, or those of the cells, and revises them if they fail.
+    fn trial(
+        &mut self,
+        start: Start,
+        conditions: &Conditions<T>,
+        fault: &mut Option<ContactError<T>>,
+    ) -> Result<Trial<T>, ContactError<T>> {
+        let [left, right] = self.contact.gap.range();
+        self.contact.gap.check_watch(*self.work.cost, Interval { left, right })?;
+        if start == Start::ActiveSet {
+            self.take_cells(conditions)?;
+        }
         let workspace = &mut *self.work.workspace;
         workspace.before.clone_from(&workspace.newton.on);
         let found = match self.converge(conditions) {
             Ok(Ok(found)) => found,
-            Ok(Err(stop)) => return Ok(Trial::Stops(stop)),
-            Err(error) if error.may_be_several() => return Ok(Trial::NotFound(error)),
+            Ok(Err(stop)) => return Ok(self.revise(stop, start)),
+            Err(error) if error.may_be_several() => {
+                *fault = Some(error);
+                return Ok((Outcome::NotFound, ControlFlow::Continue(Start::ActiveSet)));
+            }
             Err(error) => return Err(error),
         };
-        Ok(match self.checked(&found)? {
-            None => Trial::Passed(found),
-            Some(error) => Trial::Fails(error),
-        })
+        match self.checked(&found)? {
+            None => Ok((Outcome::Passed, ControlFlow::Break(found))),
+            Some(error @ ContactError::Solve(SolveError::LiftsOff { .. })) => Err(error),
+            Some(error) => {
+                Ok((Outcome::of(fault.insert(error)), ControlFlow::Continue(self.mend())))
+            }
+        }
     }
 
-    /// Revises the contacts according to the end of the search for their limits. Returns the
-    /// outcome, and the next start.
-    fn revise(&mut self, stop: Stop<T>, start: Start) -> (Outcome, Start) {
+    /// Revises the contacts according to the end of the search for their limits.
+    fn revise(&mut self, stop: Stop<T>, start: Start) -> Trial<T> {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         let Workspace { newton, before, .. } = &mut *self.work.workspace;
         let (mut vanished, mut closed) = (Vec::new(), Vec::new());
@@ -201,10 +193,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 if start != Start::Attempt {
                     on.clear();
                 }
-                return (Outcome::NotFound, Start::ActiveSet);
+                return (Outcome::NotFound, ControlFlow::Continue(Start::ActiveSet));
             }
         };
-        (outcome, Start::Attempt)
+        (outcome, ControlFlow::Continue(Start::Attempt))
     }
 
     /// Parts the contacts at hand where there is tension, or puts new ones where the bodies would
