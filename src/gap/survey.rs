@@ -96,9 +96,10 @@ struct Node<T> {
     slopes: [T; 2],
     /// Uncertainties of the slopes of either body beyond rounding.
     doubts: [T; 2],
-    /// Uncertainty of the heights up to the next node, and a flag: a piece in between is known only
-    /// by its ends.
+    /// Uncertainty of the heights up to the next node, the width of the narrowest panel around
+    /// them, and a flag: a piece in between is known only by its ends.
     after: T,
+    panel: T,
     is_open: bool,
     /// True if points of the curve before the next node are missed.
     is_void: bool,
@@ -110,12 +111,21 @@ impl<T: Real> Node<T> {
         self.doubts[0] + self.doubts[1]
     }
 
-    /// Returns the rounding error of slopes, and of chords up to another node.
+    /// Returns the rounding error of the slopes on its right and on the left of the next node. Those
+    /// of a series are rounded by its heights over its width, however near to each other the nodes
+    /// are: between pieces that meet within rounding the slope jumps.
     fn rounding(&self, next: &Self) -> T {
+        self.rounding_over(next, self.panel)
+    }
+
+    /// Returns the rounding error of the chord up to the next node, and of the slopes there.
+    fn chord_rounding(&self, next: &Self) -> T {
+        self.rounding_over(next, self.panel.min(next.x - self.x))
+    }
+
+    fn rounding_over(&self, next: &Self, width: T) -> T {
         let slopes = self.slopes[1].abs() + next.slopes[0].abs();
-        let width = next.x - self.x;
-        let heights = if width.is_zero() { T::zero() } else { (self.size + next.size) / width };
-        T::of(64.0) * T::epsilon() * (slopes + heights)
+        T::of(64.0) * T::epsilon() * (slopes + (self.size + next.size) / width)
     }
 }
 
@@ -338,7 +348,7 @@ impl<T: Real> Survey<T> {
         for i in 1..nodes.len() {
             let [from, to] = [nodes[i - 1].x, nodes[i].x];
             let node = &mut nodes[i - 1];
-            node.after = T::zero();
+            (node.after, node.panel) = (T::zero(), last - first);
             for (body, [start, end]) in self.bodies.iter().zip(&mut panels) {
                 let inner = &body.panels[..body.panels.len() - 1];
                 advance(start, inner, |panel| panel.x()[1] <= from);
@@ -347,6 +357,7 @@ impl<T: Real> Survey<T> {
                 for panel in &body.panels[*start..=*end.max(start)] {
                     node.is_open |= !panel.is_sampled;
                     node.is_void |= panel.is_void;
+                    node.panel = node.panel.min(panel.x()[1] - panel.x()[0]);
                     // A NaN replaces the number before it.
                     most = if most > panel.doubt { most } else { panel.doubt };
                 }
@@ -376,6 +387,7 @@ fn node<T: Real>([lower, upper]: [[BodyPoint<T>; 2]; 2], x: T) -> Node<T> {
         slopes: [0, 1].map(|side| upper[side].slope - lower[side].slope),
         doubts: [lower, upper].map(|[left, right]| left.doubt.max(right.doubt)),
         after: T::zero(),
+        panel: T::one() / T::zero(),
         is_open: false,
         is_void: false,
     }

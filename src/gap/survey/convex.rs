@@ -207,7 +207,7 @@ impl<T: Real> Survey<T> {
         let (rise, doubt) = (next.slopes[0] - node.slopes[1], node.doubt() + next.doubt());
         let chord = (next.height - node.height) / width;
         let rounding = node.rounding(next);
-        let most = doubt + rounding + T::of(8.0) * node.after / width;
+        let most = doubt + node.chord_rounding(next) + T::of(8.0) * node.after / width;
         if rise < -most || chord < node.slopes[1] - most || chord > next.slopes[0] + most {
             return Shape::Bent;
         }

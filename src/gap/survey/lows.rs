@@ -143,9 +143,11 @@ impl<T: Real> Survey<T> {
                 let chord = (to.height - from.height) / width;
                 let doubt =
                     from.doubt() + to.doubt() + (T::of(8.0) * from.after + cancelled) / width;
-                let allowed = from.rounding(to) + doubt.min(most);
-                // A slope at an end may be NaN.
-                chord < from.slopes[1] - allowed || chord > to.slopes[0] + allowed
+                let allowed = from.chord_rounding(to) + doubt.min(most);
+                // Pieces that meet within rounding have no chord. A slope at an end may be NaN.
+                to.slopes[0] < from.slopes[1] - (from.rounding(to) + doubt.min(most))
+                    || chord < from.slopes[1] - allowed
+                    || chord > to.slopes[0] + allowed
             })
     }
 
