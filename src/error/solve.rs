@@ -250,10 +250,11 @@ pub enum SolveError<T: Real> {
         /// Largest strength that the estimated errors of the limits and of the samples allow.
         allowed: T,
     },
-    /// The certificate has spent its budget.
+    /// The certificate has spent its budget, or the limits are too doubtful for one.
     #[error(
-        "whether the bodies touch in one place is not decided after {evaluations} evaluations and \
-         {samples} samples: at x = {x} it would take more; narrow the domains, or declare breakpoints",
+        "whether the solution is the contact is not decided after {evaluations} evaluations and \
+         {samples} samples: at x = {x} it would take more, or limits with smaller errors; narrow the \
+         domains, declare breakpoints, or solve with a smaller tolerance",
         x = six(*x)
     )]
     Undecided {

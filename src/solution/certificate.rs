@@ -99,6 +99,9 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     let at_end = Ends { left: hull.left <= found.ends.left, right: hull.right >= found.ends.right };
     let at_corner = Ends::from_fn(|side| !free[side] && !adhesive[side] && at_end[side]);
     presses_at(found, at_corner)?;
+    if found.is_doubtful() {
+        return Err(undecided(hull.left, Cost::default()));
+    }
     let ends = followed(found.ends, hull);
     let [from, to] = gap.range();
     let within = |on: &Interval<T>| Interval { left: on.left.max(from), right: on.right.min(to) };

@@ -44,7 +44,8 @@ impl<T: Real> Solution<'_, T> {
     /// for; [`InputError::Profile`](crate::InputError::Profile) for heights that are not finite;
     /// [`SolveError::Tension`](crate::SolveError::Tension) at the least pressure,
     /// [`SolveError::Overlap`](crate::SolveError::Overlap) at the deepest overlap,
-    /// [`SolveError::Undecided`](crate::SolveError::Undecided); those of sampling the gap.
+    /// [`SolveError::Undecided`](crate::SolveError::Undecided), also for an outcome that is
+    /// [doubtful](crate::Outcome::Doubtful); those of sampling the gap.
     pub fn certify(&self) -> Result<Certificate<T>, ContactError<T>> {
         T::certify(self)
     }

@@ -848,7 +848,7 @@ class UnbalancedError(SolveError):
 
 
 class UndecidedError(SolveError):
-    """The certificate has spent its budget.
+    """The certificate has spent its budget, or the limits are too doubtful for one.
 
     Attributes
     ----------

@@ -102,22 +102,24 @@ pub(super) fn moments<T: Real>(
     sums.moments(on)
 }
 
-/// Tells whether the slope rises over the contact, up to errors of size `allowed`: its derivative
-/// is not negative by its coefficients alone, and no jump goes down.
+/// Tells whether the slope rises over the contact, up to errors of size `allowed`, or those of the
+/// panels: by how much its derivative may be negative by its coefficients alone, and what jumps go
+/// down, counts once for all panels, as many small falls may be a wave.
 pub(crate) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
-    let mut before: Option<T> = None;
-    within(panels, on).iter().all(|panel| {
+    let (mut before, mut fall, mut most) = (None, T::zero(), allowed);
+    for panel in within(panels, on) {
         let mut series = [T::zero(); MAX_SIZE];
         series[..panel.length].copy_from_slice(panel.coefficients());
         let slopes = by_size!(size_for(panel.length), N => derivative::<N, T>(&series));
         let others = slopes[2..=panel.length].iter().fold(T::zero(), |sum, a| sum + a.abs());
         let [left, right] = panel.at_ends();
-        let error = panel.error.max(allowed);
-        let jumps_down = before.is_some_and(|before| left < before - error);
+        fall += (others - T::of(0.5) * slopes[1]).max(T::zero());
+        fall += before.map_or(T::zero(), |before: T| (before - left).max(T::zero()));
         before = Some(right);
         // Markov's inequality bounds the derivative of such an error.
-        T::of(0.5) * slopes[1] - others >= -error * T::count(panel.length) && !jumps_down
-    })
+        most = most.max(panel.error.max(allowed) * T::count(panel.length));
+    }
+    fall <= most
 }
 
 /// Integrates over a contact on one panel: over half a turn every cosine vanishes.
