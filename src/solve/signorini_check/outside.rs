@@ -444,7 +444,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let aside = T::epsilon().sqrt() * self.found.interval.half_width();
         let beside = self.gap.nearest(x + aside);
         let rise = sampler.height(self.gap, beside)? - height;
-        let slopes = sampler.slope_again(self.gap, beside) + sampler.slope(self.gap, x)?;
+        // At a ridge the slope towards that place: the mean of both sides would match no rise.
+        let slopes =
+            sampler.slope_again(self.gap, beside) + sampler.slope_from(self.gap, x, Side::Right)?;
         let due = T::of(0.5) * slopes * (beside - x);
         cost.heights += sampler.cost.evaluations;
         let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());

@@ -3,9 +3,10 @@
 
 use super::{Bodies, Dice, Tally, WAVES, scenes};
 use crate::common::{Profile, join};
-use linecontact::profile::{Ellipse, Parabola, Placed, Placement};
+use linecontact::profile::{Ellipse, Line, Parabola, Placed, Placement};
 use linecontact::{
-    Contact, Control, Curve, CurvePoint, Flat, Material, Piecewise, PlaneState, Solution,
+    Contact, ContactError, Control, Curve, CurvePoint, Flat, Material, Piecewise, PlaneState,
+    Solution, SolveError,
 };
 use std::f64::consts::PI;
 
@@ -128,6 +129,32 @@ fn two_equal_rollers_bear_half_each() {
             assert!((one.load / (0.5 * load) - 1.0).abs() < 1e-9, "{load}: {}", one.load);
             let peak = one.peak.unwrap().pressure;
             assert!((peak / hertz - 1.0).abs() < 1e-5, "{load}: {peak} for {hertz}");
+        }
+    }
+}
+
+/// Two equal ridges: the kink is where the other one would overlap, and its two slopes say nothing
+/// against that. One of them alone never passes.
+#[test]
+fn two_equal_ridges_are_never_one() {
+    let line = |slope: f64, from: f64, height: f64| -> Profile {
+        let line = Line::new(slope, [0.0, 1.0]).unwrap();
+        Box::new(Placed::new(line, Placement::default().shifted(from, height)).unwrap())
+    };
+    let ridges = join(vec![
+        line(-0.005, -2.0, 0.005),
+        line(1.0, -1.0, 0.0),
+        line(-1.0, 0.0, 1.0),
+        line(0.005, 1.0, 0.0),
+    ]);
+    let contact = Contact::new(&Flat, &ridges).unwrap().contact_modulus(1e5);
+    for load in [0.1, 1.0, 10.0, 100.0] {
+        match contact.solve(Control::Load(load)) {
+            Ok(solution) => assert_eq!(solution.intervals().len(), 2, "{load}"),
+            Err(error) => assert!(
+                matches!(error, ContactError::Solve(SolveError::Overlap { x, .. }) if x == 1.0),
+                "{load}: {error}"
+            ),
         }
     }
 }
