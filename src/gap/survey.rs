@@ -111,9 +111,9 @@ impl<T: Real> Node<T> {
         self.doubts[0] + self.doubts[1]
     }
 
-    /// Returns the rounding error of the slopes on its right and on the left of the next node: the
-    /// heights of a series over its width, however near to each other the nodes are. (Between pieces
-    /// that meet within rounding the slope jumps.)
+    /// Returns the rounding error of the slopes on its right and on the left of the next node: that
+    /// of heights over the width of their panel, however near to each other the nodes are. (Between
+    /// pieces that meet within rounding the slope jumps.)
     fn rounding(&self, next: &Self) -> T {
         self.rounding_over(next, self.panel)
     }
