@@ -116,15 +116,17 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// they hide many waves, or kinks. Tells whether there were any. Sums up all series.
     fn resolve(&self, fields: &mut ExteriorFields<T>, share: T) -> Result<bool, ContactError<T>> {
         let mut is_finer = false;
-        // The outermost of N places is `L (π/N)²/8` from a limit.
-        let is_apart = |count: usize| {
-            (T::pi() / T::count(count)).powi(2) >= T::of(8.0 * LEAST_DISTANCE) * T::epsilon()
+        // The outermost of N places is `L (π/N)²/8` from a limit, which may be far from the origin.
+        let is_apart = |on: Interval<T>, count: usize| {
+            let rounding = T::epsilon() * on.left.abs().max(on.right.abs()).max(on.half_width());
+            let step = T::pi() / T::count(count);
+            step * step * on.half_width() >= T::of(8.0 * LEAST_DISTANCE) * rounding
         };
         for field in &mut fields.each {
             let mut count = field.coefficients().len();
             while field.doubt > share * self.found.load.abs()
                 && count < MAX_POINTS
-                && is_apart(2 * count)
+                && is_apart(field.on, 2 * count)
             {
                 (count, is_finer) = (2 * count, true);
                 let x = (0..count).map(|i| ExteriorField::place(field.on, i, count));

@@ -319,3 +319,26 @@ fn a_limit_just_beyond_a_jump_of_the_slope() {
         assert!(refused == 0 || jump > 1.0, "{jump} {is_on_both}: {refused} refused");
     }
 }
+
+/// The kink of a wedge far from the origin is next to a limit, and the outermost of the places that
+/// resolve its pressures rounded onto the limit: the gap there was no number.
+#[test]
+fn no_place_of_a_pressure_rounds_onto_a_limit() {
+    // Slopes of both flanks, the place of the kink, and the load.
+    let scenes = [(-0.1, 0.3, 1.11e9, 1e-3), (-0.02, 0.7, 3e8, 1e-3), (-0.6, 0.05, 1e9, 1e-2)];
+    for (left, right, at, load) in scenes {
+        let wedge = |at: f64| {
+            let flank = |slope: f64, on: [f64; 2]| -> Profile {
+                let point =
+                    move |k: f64| CurvePoint { x: at + k, y: slope * k, dx: 1.0, dy: slope };
+                Box::new(Curve::new(on, point))
+            };
+            join(vec![flank(left, [-1.0, 0.0]), flank(right, [0.0, 1.0])])
+        };
+        let hull = |body: Profile| on_flat(body).solve(Control::Load(load)).unwrap().hull();
+        let [here, there] = [0.0, at].map(|at| hull(wedge(at)));
+        let moved = Interval { left: there.left - at, right: there.right - at };
+        let rounding = 4.0 * f64::EPSILON * at / here.half_width();
+        assert!(limits_off(moved, here) < rounding, "{at}: {moved:?} for {here:?}");
+    }
+}
