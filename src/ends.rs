@@ -70,14 +70,6 @@ impl<T: Copy> Ends<T> {
     }
 }
 
-impl Ends<bool> {
-    /// Returns the free edges of one contact of several: the limits on both sides of a gap are
-    /// free.
-    pub(crate) fn of_contact(self, contact: usize, last: usize) -> Self {
-        Self { left: contact > 0 || self.left, right: contact < last || self.right }
-    }
-}
-
 impl<T> Index<Side> for Ends<T> {
     type Output = T;
 

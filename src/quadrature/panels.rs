@@ -146,6 +146,15 @@ pub(crate) fn is_panels<T: Real>(integrator: &dyn Integrator<T>) -> bool {
     integrator.panels().is_some()
 }
 
+/// Returns the free limits of a contact, given those of the only one.
+pub(crate) fn free_of<T: Real>(
+    integrator: &dyn Integrator<T>,
+    contact: usize,
+    of_one: Ends<bool>,
+) -> Ends<bool> {
+    several(integrator).map_or(of_one, |several| several.held()[contact].map(|held| !held))
+}
+
 /// Returns the several contacts to which an integrator was last switched; `None` if it was one.
 pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Several<T>> {
     integrator.panels().filter(|panels| panels.is_several).map(|panels| &panels.several)

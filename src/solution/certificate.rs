@@ -120,8 +120,9 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     }
     let (mut several, mut system) = (Several::sampled(rows), System::new());
     let (load, share) = (found.load / kappa, found.zero_tolerance());
-    several.set(gap, &contacts, free.map(|free| !free), found.ends, false)?;
-    several.system(load, &mut system);
+    let held: Vec<_> = (0..contacts.len()).map(|i| solved.free(i).map(|free| !free)).collect();
+    several.set(gap, &contacts, &held, found.ends, false)?;
+    several.bear(load, &mut system);
     let cost = several.cost;
     for (i, on) in contacts.iter().enumerate() {
         cells.heights(several.panel_set(i), [on.left, on.centre(), on.right])?;
@@ -133,18 +134,16 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     let pressure = match is_plain || adhesive != Ends::both(false) {
         true => None,
         false => {
-            several.bear(load);
             several.press();
             Some(least_pressure(gap, kappa, found, &several, cells.cost())?)
         }
     };
 
     let is_held = Ends::from_fn(|side| adhesive[side] || at_corner[side]);
-    if is_held != several.corners() {
-        several.set(gap, &contacts, is_held, found.ends, false)?;
-        several.system(load, &mut system);
+    if contacts.len() == 1 && [is_held] != *several.held() {
+        several.set(gap, &contacts, &[is_held], found.ends, false)?;
+        several.bear(load, &mut system);
     }
-    several.bear(load);
     let allowed = share * steepest * hull.half_width();
     let state = Loaded { found, several: &several, system: &system, slopes: &slopes, allowed };
     let gap = state.outside([is_held, at_corner], &mut cells)?;
@@ -225,7 +224,7 @@ fn least_pressure<T: Real>(
     several: &Several<T>,
     cost: Cost,
 ) -> Result<Extremum<T>, ContactError<T>> {
-    let ContactState { interval: hull, load, free, .. } = *found;
+    let ContactState { interval: hull, load, .. } = *found;
     let pressures = |x: &[T], pressures: &mut [T]| {
         several.pressures(x, pressures);
         pressures.iter_mut().for_each(|pressure| *pressure *= kappa);
@@ -235,7 +234,8 @@ fn least_pressure<T: Real>(
     for (i, &on) in several.contacts().iter().enumerate() {
         let borne = if last == 0 { load } else { borne(&pressures, on) };
         let mean = T::of(0.5) * borne.abs() / on.half_width();
-        let (free, allowed) = (free.of_contact(i, last), found.zero_tolerance() * mean);
+        let free = several.held()[i].map(|held| !held);
+        let allowed = found.zero_tolerance() * mean;
         let inside = Inside { pressures: &pressures, gap, on, free, load, hull, allowed };
         let Extremum { x, value } = inside.least(cost)?;
         least = nearer(least, Some(Extremum { x, value: value / mean }));

@@ -79,14 +79,12 @@ impl<T: Real> Solved<'_, T> {
         if x != left && x != right && !(x >= range[0] && x <= range[1]) {
             return Err(SolveError::OutsideBodies { x, range }.into());
         }
-        let free = self.found.free;
-        let before = next.checked_sub(1).map(|i| contacts[i].right);
-        let after = contacts.get(next).map(|on| on.left);
+        let before = next.checked_sub(1).map(|i| (contacts[i].right, self.free(i).right));
+        let after = contacts.get(next).map(|on| (on.left, self.free(next).left));
         Ok(match (before, after) {
-            (Some(before), Some(after)) if x - before <= after - x => (before, true),
-            (Some(_), Some(after)) => (after, true),
-            (Some(before), None) => (before, free.right),
-            (None, after) => (after.unwrap_or(left), free.left),
+            (Some(before), Some(after)) if x - before.0 <= after.0 - x => before,
+            (Some(before), None) => before,
+            (_, after) => after.unwrap_or((left, self.found.free.left)),
         })
     }
 }

@@ -3,7 +3,7 @@
 use super::{ContactState, LoadRates, Solution, Solved};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Estimate, Integrator, LoadCase, panels};
-use crate::{ContactError, EvaluationError, Interval, Real, Side};
+use crate::{ContactError, EvaluationError, Interval, Real};
 use std::cmp::Ordering;
 
 /// Least number of grid points for the first search of a largest pressure.
@@ -97,8 +97,7 @@ impl<T: Real> Solved<'_, T> {
         contact: usize,
         cost: &mut Cost,
     ) -> Result<(T, Estimate<T>), ContactError<T>> {
-        let (contacts, ContactState { load, strengths, free, .. }) = (self.contacts(), *self.found);
-        let (on, last) = (contacts[contact], contacts.len() - 1);
+        let (on, ContactState { load, free, .. }) = (self.contacts()[contact], *self.found);
         let load_case = LoadCase { kappa: self.kappa, load, free };
         let (x, top) =
             largest_pressure(self.integrator, self.gap, &load_case, (contact, on), cost)?;
@@ -111,12 +110,11 @@ impl<T: Real> Solved<'_, T> {
         }
         let rounding = T::of(64.0) * T::epsilon() * pressure.abs();
         // If both edges are singular, the error names the right one.
-        for (side, outermost) in [(Side::Right, contact == last), (Side::Left, contact == 0)] {
-            if outermost && !free[side] && strengths[side] > rounding {
-                return Err(EvaluationError::Singular { x: on[side] }.into());
-            }
+        let mut own = self.held_limits().filter(|&(i, ..)| i == contact);
+        match own.find(|&(.., strength)| strength > rounding) {
+            Some((_, side, _)) => Err(EvaluationError::Singular { x: on[side] }.into()),
+            None => Ok((x, top)),
         }
-        Ok((x, top))
     }
 }
 

@@ -167,10 +167,10 @@ impl<T: Real> Pressure<'_, T> {
     /// # Errors
     /// As [`at_many`](Self::at_many).
     pub fn sample(&self, count: usize) -> Result<Vec<[T; 2]>, ContactError<T>> {
-        let (count, last) = (count.clamp(2, MAX_POINTS), self.contacts.len() - 1);
+        let count = count.clamp(2, MAX_POINTS);
         let mut points = Vec::with_capacity(count * self.contacts.len());
         for (i, on) in self.contacts.iter().enumerate() {
-            let free = self.load_case.free.of_contact(i, last);
+            let free = panels::free_of(self.integrator, i, self.load_case.free);
             if free.left {
                 points.push([on.left, T::zero()]);
             }
@@ -202,13 +202,13 @@ impl<T: Real> Pressure<'_, T> {
             return Err(SolveError::OutsideBodies { x, range }.into());
         }
         let (_, Some(on)) = Interval::find(self.contacts, x) else {
-            let is_held = |side| x == self.on[side] && !self.load_case.free[side];
-            let nothing = Estimate { value: T::zero(), error: T::zero() };
-            let singular = Side::BOTH.into_iter().any(is_held);
-            return if singular {
-                Err(EvaluationError::Singular { x }.into())
-            } else {
-                Ok(nothing)
+            let free = |i| panels::free_of(self.integrator, i, self.load_case.free);
+            let is_held = |(i, on): (usize, &Interval<T>)| {
+                Side::BOTH.into_iter().any(|side| x == on[side] && !free(i)[side])
+            };
+            return match self.contacts.iter().enumerate().any(is_held) {
+                true => Err(EvaluationError::Singular { x }.into()),
+                false => Ok(Estimate { value: T::zero(), error: T::zero() }),
             };
         };
         let mut estimate = self.integrator.estimate(self.gap, &self.load_case, x, cost)?;

@@ -64,12 +64,9 @@ impl<'p, T: Real> Integrals<T, Pressure<'p, T>> {
     /// Prepares the pressure of a solution.
     pub fn new(solved: Solved<'p, T>) -> Result<Self, ContactError<T>> {
         let contacts = solved.contacts();
-        let last = contacts.len() - 1;
-        let free = solved.found.free;
         let one = |(i, &on): (usize, &Interval<T>)| {
             let breakpoints = solved.gap.breakpoints(on).collect();
-            let free = free.of_contact(i, last);
-            One { on, breakpoints, free, kept: OnceLock::new() }
+            One { on, breakpoints, free: solved.free(i), kept: OnceLock::new() }
         };
         let contacts = contacts.iter().enumerate().map(one).collect();
         Ok(Self { density: Pressure::new(solved)?, load: solved.found.load, contacts })

@@ -1,7 +1,7 @@
 //! The contacts of a solution, one by one.
 
 use super::pressure_integral::Integrals;
-use super::{ContactState, Peak, Solution, Solved};
+use super::{Peak, Solution, Solved};
 use crate::gap::Cost;
 use crate::{ContactError, Ends, EvaluationError, InputError, Interval, Real};
 
@@ -20,12 +20,16 @@ use crate::{ContactError, Ends, EvaluationError, InputError, Interval, Real};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactRegion<T> {
     /// Interval from the left limit to the right one.
     pub interval: Interval<T>,
     /// Load per unit length on this contact, `∫ P dx` over it.
     pub load: T,
+    /// Flags: a corner of the bodies holds this limit, an [`Edge::Fixed`](crate::Edge::Fixed) end
+    /// or a breakpoint where the slope of the gap jumps up.
+    pub held: Ends<bool>,
     /// Strengths of the singularities at the left and at the right limit, pressures: near the right
     /// one `P ≈ K/sin θ` with `x = c + L cos θ`, c and L of this contact. Zero, or zero to
     /// rounding, at a free limit.
@@ -100,8 +104,7 @@ impl<T: Real> Solution<'_, T> {
 impl<T: Real> Solved<'_, T> {
     pub fn regions(&self) -> Result<Vec<ContactRegion<T>>, ContactError<T>> {
         let integrals = Integrals::new(*self)?;
-        let last = self.contacts().len() - 1;
-        let ContactState { load: whole, strengths, .. } = *self.found;
+        let (is_one, whole) = (self.contacts().len() == 1, self.found.load);
         let region = |(i, &interval): (usize, &Interval<T>)| {
             let half_width = interval.half_width();
             let both = |distance: T, strength: T| [strength, -(distance / half_width) * strength];
@@ -111,13 +114,12 @@ impl<T: Real> Solved<'_, T> {
                 Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => None,
                 Err(error) => return Err(error),
             };
-            let outermost = Ends { left: i == 0, right: i == last };
-            let strength = |(outermost, strength)| if outermost { strength } else { T::zero() };
             Ok(ContactRegion {
                 interval,
                 // The load of a single contact is known.
-                load: if last == 0 { whole } else { load },
-                edge_singularities: outermost.zip(strengths).map(strength),
+                load: if is_one { whole } else { load },
+                held: self.free(i).zip(self.found.adhesive).map(|(free, adhesive)| !(free || adhesive)),
+                edge_singularities: self.strengths(i),
                 peak,
                 turning,
             })

@@ -4,7 +4,7 @@ use super::ContactState;
 use crate::gap::Gap;
 use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
-use crate::{Interval, Real};
+use crate::{Ends, Interval, Real, Side};
 
 /// Contact with all data of its pressure, prepared.
 #[derive(Clone, Copy)]
@@ -26,6 +26,31 @@ impl<'s, T: Real> Solved<'s, T> {
     pub fn sampled_slope(&self, contact: usize, x: T) -> Option<(T, T)> {
         let (panels, _) = self.integrator.panels()?.contact(contact);
         Some((panels.slope(x)?, panels.doubt(x)?))
+    }
+
+    /// Returns the free limits of a contact.
+    pub fn free(&self, contact: usize) -> Ends<bool> {
+        panels::free_of(self.integrator, contact, self.found.free)
+    }
+
+    /// Returns the strengths of the singularities at the limits of a contact.
+    pub fn strengths(&self, contact: usize) -> Ends<T> {
+        self.several().map_or(self.found.strengths, |several| {
+            Ends::from_fn(|side| self.kappa * several.strength(contact, side))
+        })
+    }
+
+    /// Lists the limits that are not free, from right to left: the contact, the side and the strength
+    /// of the singularity.
+    pub fn held_limits(&self) -> impl Iterator<Item = (usize, Side, T)> {
+        let limits = (0..self.contacts().len()).rev().flat_map(|i| [(i, Side::Right), (i, Side::Left)]);
+        let held = limits.filter(|&(i, side)| !self.free(i)[side]);
+        held.map(|(i, side)| (i, side, self.strengths(i)[side]))
+    }
+
+    /// Tells whether a place is a limit that is not free.
+    pub fn is_held(&self, x: T) -> bool {
+        self.held_limits().any(|(i, side, _)| self.contacts()[i][side] == x)
     }
 
     /// Returns the contacts, from left to right.

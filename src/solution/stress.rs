@@ -242,7 +242,6 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Returns the limits of both stresses as the depth goes to zero.
     fn on_surface(&self, x: T, with_traction: bool) -> Result<[Stress<T>; 2], ContactError<T>> {
-        let Interval { left, right } = self.hull();
         let touches = self.solution.intervals().iter().any(|on| x >= on.left && x <= on.right);
         let mut pressure = [T::zero()];
         if Interval::find(self.solution.intervals(), x).1.is_some() {
@@ -253,10 +252,8 @@ impl<T: Real> Subsurface<'_, T> {
                 pressure = [-T::frac_1_pi() * self.transform.at(x, depth)[0].im];
             }
         }
-        let free = self.solution.found.free;
-        let infinite = (x == left && !free.left) || (x == right && !free.right);
         let [pressure] = pressure;
-        if infinite || !pressure.is_finite() {
+        if self.solution.solved().is_held(x) || !pressure.is_finite() {
             return Err(EvaluationError::Singular { x }.into());
         }
         let pull = if !with_traction {

@@ -96,12 +96,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// Computes the series of the pressure in each contact.
     pub fn fields(&self, fields: &mut ExteriorFields<T>) -> Result<(), ContactError<T>> {
         fields.each.clear();
-        let (contacts, free) = (self.contacts(), self.found.free);
-        for (i, &on) in contacts.iter().enumerate() {
+        for (i, &on) in self.contacts().iter().enumerate() {
             let x = ExteriorField::places(on);
             let mut pressures = [T::zero(); POINTS];
             self.pressures(&x, &mut pressures)?;
-            let free = free.of_contact(i, contacts.len() - 1);
+            let free = panels::free_of(self.integrator, i, self.found.free);
             fields.each.push(ExteriorField::new(on, free, &x, &pressures));
         }
         Ok(())

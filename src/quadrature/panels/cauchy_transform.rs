@@ -26,6 +26,7 @@
 
 use super::near_far_sum::{NearFarSum, Seen};
 use super::panel::within;
+use super::several::Terms;
 use super::{LoadCase, PanelIntegrator};
 use crate::{Ends, Interval, Real};
 use nalgebra::Complex;
@@ -42,10 +43,13 @@ const RADIUS: f64 = 1.0 / 64.0;
 /// Contacts with their panels, as seen from anywhere in the plane.
 pub(crate) struct CauchyTransform<T> {
     pub(super) contacts: Vec<(Interval<T>, NearFarSum<T>)>,
-    /// Zeros of p.
-    pub(super) zeros: Vec<T>,
-    /// True at an outermost limit that is a corner, where S has an inverse root.
-    pub(super) corners: Ends<bool>,
+    /// Zero or pole of p in each gap, if it has one, and a flag: they are poles.
+    pub(super) middles: Vec<Option<T>>,
+    pub(super) is_inverse: bool,
+    /// Limits that are held at corners, where S has an inverse root.
+    pub(super) corners: Vec<T>,
+    /// Terms of V besides the integrals.
+    pub(super) terms: Terms<T>,
     /// Strengths of the edges of a single contact, pressures.
     pub(super) strengths: Ends<T>,
     /// W of the panels of a single contact far away: κ m₀.
@@ -66,8 +70,10 @@ impl<T: Real> CauchyTransform<T> {
         let [_, strengths] = integrator.strengths(load_case);
         Self {
             contacts: vec![(on, sum)],
-            zeros: Vec::new(),
-            corners: Ends::both(false),
+            middles: Vec::new(),
+            is_inverse: false,
+            corners: Vec::new(),
+            terms: Terms::none(),
             strengths,
             far_away: integrator.moments.map_or(T::zero(), |(_, m)| kappa * m.m0),
             kappa,
@@ -95,8 +101,8 @@ impl<T: Real> CauchyTransform<T> {
         }
         let place = |t: T| Complex::new((x - t) * by_width, y);
         let gap = self.contacts.partition_point(|(on, _)| on.right < x).wrapping_sub(1);
-        let Some(&zero) = self.zeros.get(gap) else { return self.off_zeros(&place, y) };
-        // p and V vanish together.
+        let Some(&Some(zero)) = self.middles.get(gap) else { return self.off_zeros(&place, y) };
+        // p and V vanish together, or are infinite.
         let radius = T::of(RADIUS) * (self.contacts[gap + 1].0.left - self.contacts[gap].0.right);
         let radius = radius * by_width;
         if length(place(zero)) > T::of(0.5) * radius {
@@ -132,20 +138,28 @@ impl<T: Real> CauchyTransform<T> {
             value = [0, 1].map(|j| value[j] + part[j]);
             (factor, power) = (factor * roots[0] * roots[1], power + 1);
             rate += (inverse(ends[0]) + inverse(ends[1])) * T::of(0.5);
-            if let Some(&zero) = self.zeros.get(i) {
-                let by = inverse(place(zero));
-                (factor, rate, power) = (factor * by, rate - by, power - 1);
+            match self.middles.get(i) {
+                Some(&Some(pole)) if self.is_inverse => {
+                    let by = place(pole);
+                    (factor, rate, power) = (factor * by, rate + inverse(by), power + 1);
+                }
+                Some(&Some(zero)) => {
+                    let by = inverse(place(zero));
+                    (factor, rate, power) = (factor * by, rate - by, power - 1);
+                }
+                _ => {}
             }
         }
-        let limits = [(self.corners.left, hull.left), (self.corners.right, hull.right)];
-        for (_, corner) in limits.into_iter().filter(|(is_corner, _)| *is_corner) {
+        for &corner in &self.corners {
             let by = inverse(place(corner));
             (factor, rate, power) = (factor * by, rate - by, power - 1);
         }
+        let terms = self.terms.in_plane(place, width);
+        value = [0, 1].map(|j| value[j] + terms[j]);
         let scale = -self.kappa * T::frac_1_pi() * width.powi(power);
         let pull = factor * value[0] * scale;
         let slope = pull * rate + factor * value[1] * scale;
-        let [more, steeper] = self.of_strengths(limits.map(|(_, limit)| place(limit)));
+        let [more, steeper] = self.of_strengths([hull.left, hull.right].map(place));
         [pull + more - self.far_away, (slope + steeper) * y]
     }
 

@@ -19,7 +19,8 @@
 //! ```
 //!
 //! with h the height of the gap between the bodies. There are as many conditions as free limits,
-//! two per contact. A limit e acts on each through `V(e)`, taken without its infinite part
+//! two per contact without corners. With more corners than contacts V has further [terms](terms), which
+//! bear the load and close the gaps between corners. A limit e acts on each through `V(e)`, taken without its infinite part
 //! (Hadamard's finite part), up to terms that vanish with the other conditions:
 //!
 //! ```text
@@ -49,6 +50,7 @@ mod load_response;
 mod one_of_several;
 mod pressure;
 mod system;
+mod terms;
 mod weight;
 
 use super::cauchy_transform::CauchyTransform;
@@ -59,8 +61,8 @@ use crate::quadrature::Integrator;
 use crate::{ContactError, Ends, Interval, Real, Side};
 pub(crate) use load_response::LoadResponse;
 use one_of_several::OneOfSeveral;
-use std::ops::Range;
 pub(crate) use system::System;
+pub(super) use terms::Terms;
 use weight::Weight;
 
 /// Returns the contacts of an integrator: several, or else one.
@@ -82,9 +84,7 @@ pub(crate) struct Several<T> {
     /// Parts of V by the contacts far from each.
     far: FarField<T>,
     tolerance: T,
-    /// Extra term of V: `-π F/κ` for one contact between two corners whose load is given, otherwise
-    /// zero.
-    constant: T,
+    terms: Terms<T>,
     /// Cost of sampling; `spent` is the earlier cost of a single contact.
     pub cost: Cost,
     pub spent: Cost,
@@ -93,9 +93,9 @@ pub(crate) struct Several<T> {
 impl<T: Real> Several<T> {
     pub fn new(tolerance: T) -> Self {
         let (parts, weight) = (Vec::new(), Weight::new());
-        let ([cost, spent], constant) = ([Cost::default(); 2], T::zero());
+        let ([cost, spent], terms) = ([Cost::default(); 2], Terms::none());
         let far = FarField::new(Combine::Sum);
-        Self { parts, weight, far, tolerance, constant, cost, spent }
+        Self { parts, weight, far, tolerance, terms, cost, spent }
     }
 
     /// Counts costs from zero, and forgets the samples unless the bodies are the same.
@@ -110,18 +110,18 @@ impl<T: Real> Several<T> {
         self.weight.contacts()
     }
 
-    /// Sets the contacts, between the ends of the bodies, and the outermost limits that are
+    /// Sets the contacts, between the ends of the bodies, and the limits of each that are held at
     /// corners: ready for the conditions on the limits, not yet for pressures. Keeps the samples of
     /// earlier contacts. For a trial a few digits suffice.
     pub fn set(
         &mut self,
         gap: &Gap<'_, T>,
         on: &[Interval<T>],
-        corners: Ends<bool>,
+        held: &[Ends<bool>],
         ends: Ends<T>,
         is_trial: bool,
     ) -> Result<(), ContactError<T>> {
-        self.weight.set(on, corners, is_trial);
+        self.weight.set(on, held, is_trial);
         if on.len() != self.parts.len() {
             let mut known = std::mem::take(&mut self.parts);
             self.parts.extend(on.iter().map(|on| {
@@ -132,9 +132,17 @@ impl<T: Real> Several<T> {
         }
         let half = T::of(0.5);
         for (i, part) in self.parts.iter_mut().enumerate() {
-            // No contact is sampled beyond the middle of a gap.
-            let from = if i == 0 { ends.left } else { half * on[i - 1].right + half * on[i].left };
-            let to = on.get(i + 1).map_or(ends.right, |next| half * on[i].right + half * next.left);
+            // No contact is sampled beyond a corner that holds it, or the middle of a gap.
+            let from = match i {
+                _ if held[i].left => on[i].left,
+                0 => ends.left,
+                _ => half * on[i - 1].right + half * on[i].left,
+            };
+            let to = match on.get(i + 1) {
+                _ if held[i].right => on[i].right,
+                Some(next) => half * on[i].right + half * next.left,
+                None => ends.right,
+            };
             part.panel_set.spent = self.spent + self.cost;
             let sampled = part.sample(gap, on[i], [from, to]);
             self.cost += std::mem::take(&mut part.panel_set.cost);
@@ -181,27 +189,30 @@ impl<T: Real> Several<T> {
     /// Returns the Cauchy transform of the pressure for κ and F.
     pub fn cauchy_transform(&self, kappa: T, load: T) -> CauchyTransform<T> {
         let contacts = self.parts.iter().map(OneOfSeveral::in_plane).collect();
-        let (zeros, corners) = (self.weight.zeros().to_vec(), self.corners());
         let (strengths, far_away) = (Ends::both(T::zero()), T::zero());
-        CauchyTransform { contacts, zeros, corners, strengths, far_away, kappa, load }
+        let corners = self.weight.held_limits().collect();
+        let middles = self.weight.middles().to_vec();
+        let terms = self.terms.clone();
+        let is_inverse = self.weight.is_inverse();
+        CauchyTransform { contacts, middles, is_inverse, corners, terms, strengths, far_away, kappa, load }
     }
 
-    /// Tells which of the outermost limits are corners.
-    pub fn corners(&self) -> Ends<bool> {
-        self.weight.corners()
+    /// Returns the number of poles of p.
+    pub fn poles(&self) -> usize {
+        self.weight.poles()
     }
 
-    /// Returns the numbers of the free limits, from left to right.
-    fn free(&self) -> Range<usize> {
-        usize::from(self.corners().left)..2 * self.parts.len() - usize::from(self.corners().right)
+    /// Returns the limits of each contact that are held at corners.
+    pub fn held(&self) -> &[Ends<bool>] {
+        self.weight.held()
     }
 
-    /// Returns V at an outermost limit, without its infinite part.
-    fn at_outer_end(&self, side: Side) -> T {
-        let contact = if side == Side::Left { 0 } else { self.parts.len() - 1 };
+    /// Returns V at a limit, without its infinite part, with the parts by each of the contacts.
+    fn at_end_by_each(&self, contact: usize, side: Side) -> T {
         let (part, others) =
             (&self.parts[contact], (0..self.parts.len()).filter(|&i| i != contact));
-        part.at_end(side) + self.outside(others, part.on[side], None)
+        let x = part.on[side];
+        part.at_end(side) + self.outside(others, x, None) + self.terms.at(x)
     }
 
     /// Returns the slope of the gap around a contact.

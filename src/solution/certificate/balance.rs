@@ -31,7 +31,7 @@ pub(super) fn balanced<T: Real>(
     }
     let contacts = cells.contacts();
     let limits = (0..contacts.len()).flat_map(|i| Side::BOTH.map(|side| (i, side)));
-    let is_free = |&(i, side): &(usize, Side)| found.free.of_contact(i, contacts.len() - 1)[side];
+    let is_free = |&(i, side): &(usize, Side)| !cells.held()[i][side];
     let mut fault = Ok(());
     for (((i, side), step), open) in limits.filter(is_free).zip(steps).zip(open) {
         let on = contacts[i];

@@ -47,7 +47,7 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     pub(crate) fn largest_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
-        self.check_edges(|_, _| true)?;
+        self.check_edges(|_, _, _| true)?;
         self.check_tips(false)?;
         self.largest(|stress| Ok(stress.max_shear()))
     }
@@ -63,23 +63,23 @@ impl<T: Real> Subsurface<'_, T> {
 
     pub(crate) fn largest_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
         let poisson = checked_ratio(poisson)?;
-        self.check_edges(|_, _| true)?;
+        self.check_edges(|_, _, _| true)?;
         self.check_tips(poisson != T::of(0.5))?;
         self.largest(|stress| stress.von_mises(poisson))
     }
 
-    /// Refuses edges of infinite pressure, if the stress is infinite for a side and its strength.
+    /// Refuses edges of infinite pressure, if the stress is infinite for a side, its place and its
+    /// strength.
     pub(super) fn check_edges(
         &self,
-        is_infinite: impl Fn(Side, T) -> bool,
+        is_infinite: impl Fn(Side, T, T) -> bool,
     ) -> Result<(), ContactError<T>> {
-        let (found, hull) = (self.solution.found, self.hull());
         let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
-        // If both edges are singular, the error names the right one.
-        for side in [Side::Right, Side::Left] {
-            let strength = found.strengths[side];
-            if !found.free[side] && strength.abs() > least && is_infinite(side, strength) {
-                return Err(EvaluationError::Singular { x: hull[side] }.into());
+        // If several edges are singular, the error names the rightmost.
+        for (i, side, strength) in self.solution.solved().held_limits() {
+            let x = self.solution.intervals()[i][side];
+            if strength.abs() > least && is_infinite(side, x, strength) {
+                return Err(EvaluationError::Singular { x }.into());
             }
         }
         Ok(())

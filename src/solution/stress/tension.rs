@@ -25,15 +25,18 @@ impl<T: Real> Subsurface<'_, T> {
 
     pub(crate) fn largest_tension(&self) -> Result<Extremum<T>, ContactError<T>> {
         let zero = T::zero();
-        let is_stretched = |side, strength| {
-            let stick = self.stick.as_ref().map(|stick| stick.solution.found.strengths[side]);
-            let pull = self.friction * (strength - stick.unwrap_or(zero));
+        let is_stretched = |side, x, strength| {
+            let stick = self.stick.as_ref().and_then(|stick| {
+                let solved = stick.solution.solved();
+                solved.held_limits().find(|&(i, side, _)| stick.solution.intervals()[i][side] == x)
+            });
+            let pull = self.friction * (strength - stick.map_or(zero, |(.., strength)| strength));
             match side {
                 Side::Left => pull > zero,
                 Side::Right => pull < zero,
             }
         };
-        self.check_edges(|side, strength| strength < zero || is_stretched(side, strength))?;
+        self.check_edges(|side, x, strength| strength < zero || is_stretched(side, x, strength))?;
         let mut best = Extremum { x: self.hull().left, value: zero };
         for (contact, &on) in self.solution.intervals().iter().enumerate() {
             // Beside the contacts σ_x rises towards a limit, as the traction has one sign.

@@ -19,7 +19,6 @@ use crate::gap::Gap;
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
-use std::ops::Range;
 
 /// Steps before the search is given up.
 const MAX_STEPS: usize = 60;
@@ -63,8 +62,6 @@ pub(in super::super) struct Conditions<'s, 'b, T: Real> {
     pub gap: &'s Gap<'b, T>,
     /// Load as F/κ.
     pub load: T,
-    /// Flags: a corner holds the contacts on this side.
-    pub corners: Ends<bool>,
     /// Ends of the bodies.
     pub ends: Ends<T>,
     pub besides: Option<Besides<T>>,
@@ -91,8 +88,12 @@ pub(in super::super) struct NewtonSeveral<T> {
     pub on: Vec<Interval<T>>,
     /// Estimated errors of the limits, each as a share of the half-width of its contact.
     pub errors: Vec<T>,
-    /// Flags: the outermost limit on this side stays in place.
-    held: Ends<bool>,
+    /// Limits of each contact that a corner holds.
+    pub held: Vec<Ends<bool>>,
+    /// Outermost limit that stays at the end of the bodies.
+    at_end: Option<Side>,
+    /// Residues at the poles of the quadrature.
+    residues: Vec<T>,
     progress: Progress<T>,
     /// Flag: the limits are not yet worth all panels.
     is_trial: bool,
@@ -115,7 +116,8 @@ pub(in super::super) struct NewtonSeveral<T> {
 
 impl<T: Real> NewtonSeveral<T> {
     pub fn new() -> Self {
-        let (held, progress, passed) = (Ends::both(false), Progress::new(), None);
+        let (at_end, progress, passed) = (None, Progress::new(), None);
+        let (held, residues) = (Vec::new(), Vec::new());
         let [errors, step, moves, unit, open] = std::array::from_fn(|_| Vec::new());
         let system = System::new();
         let (on, order, tilt, load) = (Vec::new(), Vec::new(), T::zero(), T::zero());
@@ -126,6 +128,8 @@ impl<T: Real> NewtonSeveral<T> {
             on,
             errors,
             held,
+            at_end,
+            residues,
             progress,
             is_trial: true,
             cut,
@@ -152,10 +156,8 @@ impl<T: Real> NewtonSeveral<T> {
         if !matches!(conditions.besides, Some(Besides::Tilt(_))) {
             self.tilt = conditions.gap.tilt();
         }
-        self.held = conditions.corners;
-        if let Some(side) = conditions.end() {
-            self.held[side] = true;
-        }
+        self.at_end = conditions.end();
+        self.residues.clear();
         (self.progress, self.passed) = (Progress::new(), None);
         self.is_trial = self.on.len() >= LEAST_TRIED;
         self.cut.clear();
@@ -191,7 +193,8 @@ impl<T: Real> NewtonSeveral<T> {
                     self.turn(&mut turned, conditions.besides);
                     self.advance();
                 }
-                several.set(&turned, &self.on, conditions.corners, conditions.ends, false)?;
+                several.set(&turned, &self.on, &self.held, conditions.ends, false)?;
+                several.carry(self.load, &self.residues);
                 several.press();
                 return Ok(Ok(()));
             }
@@ -210,8 +213,9 @@ impl<T: Real> NewtonSeveral<T> {
         if self.is_closed() {
             return Ok(Err(Stop::Gone));
         }
-        let Conditions { corners, ends, .. } = *conditions;
-        several.set(turned, &self.on, corners, ends, self.is_trial)?;
+        several.set(turned, &self.on, &self.held, conditions.ends, self.is_trial)?;
+        self.residues.resize(several.poles(), T::zero());
+        several.carry(self.load, &self.residues);
         several.system(self.load, &mut self.system);
         match conditions.besides {
             Some(Besides::Tilt(at)) => several.turning(conditions.load, at, &mut self.system),
@@ -228,14 +232,18 @@ impl<T: Real> NewtonSeveral<T> {
         self.system.step(&mut self.step);
         self.moves.clear();
         self.moves.resize(2 * self.on.len(), T::zero());
-        for i in self.free() {
-            self.moves[i] = -self.step[i - self.system.free.start];
+        for (&i, &step) in self.system.free.iter().zip(&self.step) {
+            if self.moves_freely(i) {
+                self.moves[i] = -step;
+            }
         }
         Ok(Ok(()))
     }
 
-    /// Takes the step of the tilt or of the load, if sought.
+    /// Takes the step of the residues, and of the tilt or of the load, if sought.
     fn turn(&mut self, turned: &mut Gap<'_, T>, besides: Option<Besides<T>>) {
+        let steps = &self.step[self.system.free.len()..];
+        self.residues.iter_mut().zip(steps).for_each(|(residue, &step)| *residue -= step);
         match (besides, self.step.last()) {
             (Some(Besides::Tilt(_)), Some(&step)) => {
                 self.tilt -= step;
@@ -343,8 +351,14 @@ impl<T: Real> NewtonSeveral<T> {
         ContactState {
             interval: self.hull(),
             load,
-            strengths: Ends::from_fn(|side| kappa * several.strength(side)),
-            free: conditions.corners.map(|corner| !corner),
+            strengths: Ends {
+                left: kappa * several.strength(0, Side::Left),
+                right: kappa * several.strength(on.len() - 1, Side::Right),
+            },
+            free: Ends {
+                left: !self.held[0].left,
+                right: !self.held[on.len() - 1].right,
+            },
             adhesive: Ends::both(false),
             error: Some(self.errors.iter().fold(T::zero(), |max, &error| max.max(error))),
             error_by_load: Some(sum / all),
@@ -355,9 +369,14 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Returns the range of the limits sought, among all from left to right.
-    fn free(&self) -> Range<usize> {
-        usize::from(self.held.left)..2 * self.on.len() - usize::from(self.held.right)
+    /// Tells whether a limit, by its number among all from left to right, is sought.
+    fn moves_freely(&self, i: usize) -> bool {
+        let is_at_end = match self.at_end {
+            Some(Side::Left) => i == 0,
+            Some(Side::Right) => i + 1 == 2 * self.on.len(),
+            None => false,
+        };
+        !is_at_end && !self.held[i / 2][Side::BOTH[i % 2]]
     }
 
     /// Returns the largest step, as a share of the half-width of its contact or of the gap next to
@@ -365,7 +384,7 @@ impl<T: Real> NewtonSeveral<T> {
     fn size(&self) -> T {
         let (half, last) = (T::of(0.5), self.moves.len() - 1);
         let half_width = |i: Width| half * self.width(i);
-        let shares = self.system.free.clone().zip(&self.step).map(|(i, step)| {
+        let shares = self.system.free.iter().zip(&self.step).map(|(&i, step)| {
             let beside = [i.checked_sub(1), (i < last).then_some(i)].into_iter().flatten();
             step.abs() / beside.map(half_width).reduce(T::min).unwrap_or(T::one())
         });
@@ -396,7 +415,7 @@ impl<T: Real> NewtonSeveral<T> {
         }
         self.errors.clear();
         self.errors.resize(2 * self.on.len(), T::zero());
-        for (i, &open) in self.system.free.clone().zip(&self.open) {
+        for (&i, &open) in self.system.free.iter().zip(&self.open) {
             let on = self.on[i / 2];
             let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
             self.errors[i] = T::of(4.0) * (open + rounding) / on.half_width();
@@ -431,15 +450,16 @@ mod tests {
         body: &dyn crate::ParametricProfile<f64>,
         load: f64,
         start: &[[f64; 2]],
-        corners: Ends<bool>,
+        held: &[Ends<bool>],
     ) -> (Vec<Interval<f64>>, Vec<f64>, Several<f64>) {
         let inversion = Inversion::default();
         let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(body), &inversion).unwrap();
         let mut several = Several::new(16.0 * f64::EPSILON);
         let mut newton = NewtonSeveral::new();
         newton.on = start.iter().map(|&[left, right]| Interval { left, right }).collect();
+        newton.held = held.to_vec();
         let ends = gap.range().into();
-        let conditions = Conditions { gap: &gap, load, corners, ends, besides: None };
+        let conditions = Conditions { gap: &gap, load, ends, besides: None };
         let verdict = newton.converge(&mut several, &conditions).unwrap();
         assert_eq!(verdict, Ok(()), "{:?}", newton.on);
         (newton.on, newton.errors, several)
@@ -458,7 +478,7 @@ mod tests {
             let off = 0.1 * (be - al);
             let start = [[-be + off, -al - off], [al + off, be - off]];
             let (on, errors, several) =
-                solve(&body, load / std::f64::consts::FRAC_PI_2, &start, Ends::both(false));
+                solve(&body, load / std::f64::consts::FRAC_PI_2, &start, &[Ends::both(false); 2]);
             let width = be - al;
             let limits = on.iter().flat_map(|on| [on.left, on.right]);
             for ((x, due), error) in limits.zip([-be, -al, al, be]).zip(errors) {
@@ -504,7 +524,7 @@ mod tests {
             let [al, be] = [((1.0 - a) / 2.0).sqrt(), ((1.0 + a) / 2.0).sqrt()];
             let off = 0.05 * (be - al);
             let start = [[-be - off, -al + off], [al + off, be + off]];
-            let (on, _, several) = solve(&body, load, &start, Ends::both(false));
+            let (on, _, several) = solve(&body, load, &start, &[Ends::both(false); 2]);
             for (x, due) in
                 [(on[0].left, -be), (on[0].right, -al), (on[1].left, al), (on[1].right, be)]
             {

@@ -14,7 +14,7 @@
 
 use super::super::active_set::{Coarse, NotFound, Scene, active_set};
 use super::super::newton::Stop;
-use super::super::newton::several::{self, Besides, outermost, put};
+use super::super::newton::several::{self, Besides, put};
 use super::{Conditions, FIRST_CELLS, Search, Single, Work, Workspace, asked_by};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
@@ -240,48 +240,28 @@ impl<T: Real> Search<'_, '_, '_, T> {
         corners
     }
 
-    /// Moves the contacts at hand until they bear the load, and repeats as long as their panels
-    /// miss narrow features.
-    fn converge(
+    /// Moves the contacts at hand until they bear the load, with some limits held.
+    pub(super) fn converge_once(
         &mut self,
         conditions: &Conditions<T>,
     ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        let ends = self.contact.ends();
-        let (at_corner, on) = (self.corners(), &self.work.workspace.newton.on);
-        let corners = Ends {
-            left: at_corner.left && on[0].left <= ends.left,
-            right: at_corner.right && on[on.len() - 1].right >= ends.right,
-        };
-        loop {
-            let found = self.converge_once(conditions, corners)?;
-            if !matches!(&found, Ok(state) if self.misses(state)?) {
-                return Ok(found);
-            }
-        }
-    }
-
-    fn converge_once(
-        &mut self,
-        conditions: &Conditions<T>,
-        corners: Ends<bool>,
-    ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
+        let held = self.held_limits();
         if let (&[on], None) = (&self.work.workspace.newton.on[..], self.end) {
-            return self.one_of_set(conditions, on);
+            return self.one_of_set(conditions, on, held[0]);
         }
         let (contact, ends) = (self.contact, self.contact.ends());
         let Work { integrator, workspace, .. } = &mut *self.work;
         let newton = &mut workspace.newton;
-        for side in Side::BOTH {
-            if corners[side] || self.end == Some(side) {
-                put(&mut newton.on, side, ends[side]);
-            }
+        newton.held = held;
+        if let Some(side) = self.end {
+            put(&mut newton.on, side, ends[side]);
         }
         let Some(several) = panels::several_mut(*integrator) else {
             return Ok(Err(Stop::Failed));
         };
         let besides = conditions.at().map(Besides::Tilt).or(self.end.map(Besides::Load));
         let load = conditions.load() / conditions.kappa;
-        let sought = several::Conditions { gap: &contact.gap, load, corners, ends, besides };
+        let sought = several::Conditions { gap: &contact.gap, load, ends, besides };
         if let Err(stop) = newton.converge(several, &sought)? {
             return Ok(Err(stop));
         }
@@ -289,19 +269,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             Some(_) => newton.load * conditions.kappa,
             None => conditions.load(),
         };
-        let found = newton.found(several, conditions.kappa, load, &sought);
-        // A corner in tension does not hold the contact.
-        let pulls = |&side: &Side| corners[side] && found.strengths[side] < T::zero();
-        let lets_go = |&side: &Side| matches!(conditions.edges[side], Edge::FreeUntil(_));
-        let Some(side) = Side::BOTH.into_iter().filter(pulls).find(lets_go) else {
-            return Ok(Ok(found));
-        };
-        let inward = T::of(CORNER_STEP) * outermost(&mut newton.on, side).half_width();
-        let inside = if side == Side::Left { ends.left + inward } else { ends.right - inward };
-        put(&mut newton.on, side, inside);
-        let mut corners = corners;
-        corners[side] = false;
-        self.converge_once(conditions, corners)
+        Ok(Ok(newton.found(several, conditions.kappa, load, &sought)))
     }
 
     /// Moves the only contact of a set until it bears the load.
@@ -309,8 +277,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         conditions: &Conditions<T>,
         on: Interval<T>,
+        held: Ends<bool>,
     ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        let (contact, conditions, start) = (self.contact, *conditions, Some(on));
+        let (contact, mut conditions, start) = (self.contact, *conditions, Some(on));
+        for side in Side::BOTH.into_iter().filter(|&side| held[side]) {
+            conditions.edges[side] = Edge::Fixed(on[side]);
+        }
         let Work { integrator, workspace, cost } = &mut *self.work;
         let (look, bears, integrator) = (None, Some(None), &mut **integrator);
         let mut single = Single { contact, conditions, start, look, integrator, cost, bears };

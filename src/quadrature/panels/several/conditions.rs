@@ -5,7 +5,8 @@ use super::one_of_several::OneOfSeveral;
 use super::system::{Besides, System};
 use crate::numerics::FarField;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::{Ends, Interval, Real, Side};
+use super::terms::Terms;
+use crate::{Interval, Real, Side};
 
 /// Longest span in a gap for one Gauss rule, in the variable t of `x = β + 2 L sinh²(t/2)`: the
 /// next singularity lies at least a third as far beyond its end. Sixteen nodes leave an error of
@@ -16,19 +17,27 @@ const MAX_GAUSS_SPAN: f64 = 2.0;
 const MAX_STRETCHES: usize = 1000;
 
 impl<T: Real> Several<T> {
+    /// Sets the load, given as F/κ, and the residues at the poles of p.
+    pub fn carry(&mut self, load: T, residues: &[T]) {
+        self.terms = self.weight.terms(load, residues);
+    }
+
     /// Sets up the conditions for a load, given as F/κ.
     pub fn system(&self, load: T, system: &mut System<T>) {
-        (system.over_last, system.lost, system.besides) = (T::zero(), None, None);
-        system.free = self.free();
+        (system.lost, system.besides) = (None, None);
+        system.free.clear();
+        let is_free = |i: &usize| !self.held()[i / 2][Side::BOTH[i % 2]];
+        system.free.extend((0..2 * self.parts.len()).filter(is_free));
         let contacts = self.contacts();
         let gap = |pair: &[Interval<T>]| Interval { left: pair[0].right, right: pair[1].left };
         let part = |k: usize, x: T| self.parts[k].seen_from(x);
         system.far.set(contacts, contacts.windows(2).map(gap), self.weight.far.is_coarse, &part);
-        let System { residual, open, limits, at_ends, slopes, rows, poles, .. } = system;
+        let System { residual, open, limits, at_ends, slopes, rows, poles, by_tilt, .. } = system;
         let [at, squares] = [&mut poles.at, &mut poles.squares];
-        for known in [residual, open, limits, at_ends, slopes, rows, at, squares] {
+        for known in [residual, open, limits, at_ends, slopes, rows, at, squares, by_tilt] {
             known.clear();
         }
+        poles.of_p.clear();
         for (i, on) in contacts.iter().enumerate() {
             for side in Side::BOTH {
                 let (x, weight) = (on[side], self.weight.on_contact(i, [on[side]])[0]);
@@ -55,31 +64,42 @@ impl<T: Real> Several<T> {
             Side::Left => contact.checked_sub(1),
             Side::Right => Some(contact).filter(|k| k + 1 < self.parts.len()),
         };
-        let Some(k) = gap else { return self.at_outer_end(side) };
+        let Some(k) = gap else { return self.at_end_by_each(contact, side) };
         let (part, others) = (&self.parts[contact], far.near(k).filter(|&i| i != contact));
         let x = part.on[side];
-        part.at_end(side) + self.outside(others, x, None) + far.far(k, [x])[0]
+        let integrals = part.at_end(side) + self.outside(others, x, None) + far.far(k, [x])[0];
+        integrals + self.terms.at(x)
     }
 
     /// Adds the poles of the step, the balance conditions and the load condition.
     fn balance(&self, load: T, system: &mut System<T>) {
         let (zero, one, per_pi) = (T::zero(), T::one(), -T::frac_1_pi());
-        let (hull, corners) = (self.hull(), self.corners());
-        for (k, &x) in self.weight.zeros().iter().enumerate() {
+        let (inverse, free) = (self.weight.is_inverse(), self.weight.corners() == 0);
+        for (k, x) in self.weight.numbered() {
             let ends = [x - self.parts[k].on.right, self.parts[k + 1].on.left - x];
+            let square = self.weight.in_gap(k, x, ends).powi(2);
+            if inverse {
+                system.poles.of_p.push([x, square]);
+                continue;
+            }
             system.poles.at.push(x);
-            system.poles.squares.push(self.weight.in_gap(k, x, ends).powi(2));
+            system.poles.squares.push(square);
             let share = |on: Interval<T>| one / (x - on.right).abs().min((x - on.left).abs());
             let value = self.in_gap(&system.far, k, x, None);
             system.add(value, self.moments_error(share));
         }
-        for side in Side::BOTH.into_iter().filter(|&side| corners[side]) {
-            system.poles.at.push(hull[side]);
-            system.poles.squares.push(zero);
-        }
-        system.poles.centre = self.has_no_corners().then(|| hull.plain().centre());
+        system.poles.at.extend(self.weight.held_limits());
+        system.poles.squares.resize(system.poles.at.len(), zero);
+        let centre = self.hull().plain().centre();
+        system.poles.centre = free.then_some(centre);
+        system.polynomial = self.polynomial(centre);
         let (total, n) = (self.sum(|part| part.moments.m0), system.poles.count());
-        system.rows.resize(n, if self.has_no_corners() { zero } else { per_pi });
+        system.load_row = system.residual.len();
+        if inverse {
+            self.bear_by_terms(centre, system);
+            return;
+        }
+        system.rows.resize(n, if free { zero } else { per_pi });
         system.rows.resize(2 * n, zero);
         let (mut borne, mut error) = (total, self.moments_error(|_| one));
         if let Some(centre) = system.poles.centre {
@@ -89,9 +109,43 @@ impl<T: Real> Several<T> {
             borne = self.powers(centre)[0];
             error =
                 self.moments_error(|on| (on.left - centre).abs().max((on.right - centre).abs()));
+            system.load_row += 1;
         }
-        system.load_row = system.residual.len();
         system.add(borne - load, error * T::frac_1_pi());
+    }
+
+    /// Adds the conditions on the constants with more corners than contacts. The terms of V bear
+    /// the load.
+    fn bear_by_terms(&self, about: T, system: &mut System<T>) {
+        let (zero, one) = (T::zero(), T::one());
+        let System { poles, rows, .. } = &mut *system;
+        let mut add = |by: &dyn Fn(T) -> T| {
+            rows.extend(poles.at.iter().map(|&at| by(at)));
+            rows.resize(rows.len() + poles.at.len(), zero);
+        };
+        add(&|z| (about - z) * T::frac_1_pi());
+        add(&|_| one);
+        poles.of_p.iter().for_each(|&[x, _]| add(&|z| one / (x - z)));
+        for _ in 0..2 + system.poles.of_p.len() {
+            system.add(zero, zero);
+        }
+    }
+
+    /// Returns the polynomial part of `p/S` far away, with the poles of p: the part of V by a tilt
+    /// that is no `p/S`. `about` is near the contacts.
+    fn polynomial(&self, about: T) -> Terms<T> {
+        let (zero, one) = (T::zero(), T::one());
+        if !self.weight.is_inverse() {
+            let constant = if self.weight.corners() == 0 { zero } else { one };
+            return Terms { about, by_power: [constant, zero], poles: Vec::new() };
+        }
+        let held: Vec<_> = self.weight.held_limits().collect();
+        let residue = |(k, x): (usize, T)| {
+            let ends = [x - self.parts[k].on.right, self.parts[k + 1].on.left - x];
+            (k, x, one / self.weight.in_gap(k, x, ends))
+        };
+        let poles = self.weight.numbered().map(residue).collect();
+        Terms { about, by_power: [self.afar(&held, about)[0], one], poles }
     }
 
     /// Adds the condition that a gap closes at both ends.
@@ -99,10 +153,11 @@ impl<T: Real> Several<T> {
         let (zero, pi) = (T::zero(), T::pi());
         let [left, right] = [&self.parts[k], &self.parts[k + 1]];
         let width = right.on.left - left.on.right;
-        let own = self.weight.zeros().get(k).copied();
-        let [mut closed, mut size, mut over, mut by_own] = [zero; 4];
+        let (own, pole) = (self.weight.zero(k), self.weight.pole(k));
+        let [mut closed, mut size, mut by_tilt, mut by_own] = [zero; 4];
         // The integrals ∫ S/p_k dx/(x - e) for the two limits at the ends.
         let mut by_ends = [zero; 2];
+        let is_free = [!self.held()[k].right, !self.held()[k + 1].left];
         let mut row = std::mem::take(&mut system.row);
         row.clear();
         row.resize(2 * system.poles.count(), zero);
@@ -111,17 +166,28 @@ impl<T: Real> Several<T> {
             let share = scale * self.without_zero(k, system, x, value);
             closed -= share / pi;
             size += share.abs() / pi;
-            over += scale;
             by_ends[0] += scale / from_left;
             by_ends[1] -= scale / to_right;
             let away = own.map_or(T::one(), |own| x - own);
-            by_own -= scale / (away * pi);
-            system.poles.add(x, -away * dx / (root * pi), &mut row);
+            let by_constants = -away * dx / (root * pi);
+            if let Some(pole) = pole {
+                // Q vanishes there.
+                let by_constants = by_constants / (x - pole);
+                system.poles.add(x, by_constants, &mut row);
+                system.poles.add(pole, -by_constants, &mut row);
+            } else {
+                system.poles.add(x, by_constants, &mut row);
+            }
+            match own {
+                Some(_) => by_own -= scale / (away * pi),
+                None => by_tilt -= scale * system.polynomial.in_gap(k, x),
+            }
         });
-        match own {
-            Some(_) => row[system.poles.count() + k] += by_own,
-            None => system.over_last = over,
+        if own.is_some() {
+            let zero = self.weight.numbered().take_while(|&(gap, _)| gap < k).count();
+            row[system.poles.count() + zero] += by_own;
         }
+        system.by_tilt.push(by_tilt);
         let [from, to] = [left.height(left.on.right), right.height(right.on.left)];
         let heights = left.height_size(from) + right.height_size(to);
         let rounding = T::of(4.0) * T::epsilon() * (heights + size);
@@ -131,14 +197,18 @@ impl<T: Real> Several<T> {
         let square = left.on.half_width().min(right.on.half_width()).powi(2);
         let by_width = (known + known) / width * square / (square + width * width);
         let mut by_limits = zero;
-        for (end, sign) in [(0, T::one()), (1, -T::one())] {
+        for (end, sign) in [(0, T::one()), (1, -T::one())].into_iter().filter(|e| is_free[e.0]) {
             let i = 2 * k + 1 + end;
-            let away = own.map_or(T::one(), |own| system.limits[i] - own);
+            let away = match (own, pole) {
+                (Some(own), _) => system.limits[i] - own,
+                (_, Some(pole)) => T::one() / (system.limits[i] - pole),
+                _ => T::one(),
+            };
             by_limits += (system.at_ends[i] / away / (pi + pi) * by_ends[end]).abs();
             let share = -(by_width + by_width) / (system.slopes[i] * system.at_ends[i]);
             system.poles.add(system.limits[i], sign * share, &mut row);
         }
-        if by_limits * width <= rounding {
+        if is_free.contains(&true) && by_limits * width <= rounding {
             system.lost.get_or_insert(k);
         }
         system.rows.extend_from_slice(&row);
@@ -180,11 +250,15 @@ impl<T: Real> Several<T> {
         }
     }
 
-    /// Returns `V_k`: V minus its value at the zero of p in gap k, divided by the distance from
-    /// that zero; V itself if the gap has no zero.
+    /// Returns `V_k`, given the integrals of V: V minus its value at the zero of p in gap k, divided
+    /// by the distance from that zero; V times the distance from a pole of p; or V itself.
     pub(super) fn without_zero(&self, k: usize, system: &System<T>, x: T, value: T) -> T {
-        let zero = self.weight.zeros().get(k);
-        zero.map_or(value, |&zero| (value - system.residual[k]) / (x - zero))
+        if let Some(zero) = self.weight.zero(k) {
+            let before = self.weight.numbered().take_while(|&(gap, _)| gap < k).count();
+            return (value - system.residual[before]) / (x - zero);
+        }
+        let away = self.weight.pole(k).map_or(T::one(), |pole| x - pole);
+        value * away + self.terms.in_gap(k, x)
     }
 
     /// Returns π times the sum of the errors of all moments, each times its share.
@@ -199,10 +273,6 @@ impl<T: Real> Several<T> {
     /// Returns the interval from the first limit to the last.
     fn hull(&self) -> Interval<T> {
         Interval { left: self.parts[0].on.left, right: self.parts[self.parts.len() - 1].on.right }
-    }
-
-    fn has_no_corners(&self) -> bool {
-        self.corners() == Ends::both(false)
     }
 
     /// Returns `(1/π) ∫ w p (x - x₀)ⁱ g dx` for i = 1 and 2.
@@ -226,6 +296,8 @@ impl<T: Real> Several<T> {
         let half = T::of(0.5);
         let limits = self.contacts().iter().flat_map(|on| [(on.left, half), (on.right, half)]);
         let all = limits.chain(poles.iter().map(|&x| (x, -T::one())));
+        let of_p = self.weight.numbered().filter(|_| self.weight.is_inverse());
+        let all = all.chain(of_p.map(|(_, x)| (x, T::one())));
         let [first, second] = all.fold([T::zero(); 2], |[first, second], (x, share)| {
             let x = x - about;
             [first + share * x, second + share * half * x * x]
@@ -239,8 +311,8 @@ impl<T: Real> Several<T> {
         let [zero, one] = [T::zero(), T::one()];
         let mut others = vec![zero; system.residual.len()];
         others[system.load_row] = -one;
-        let mut by_limits = vec![zero; system.free.len()];
-        let last = by_limits.len() - 1;
+        let mut by_limits = vec![zero; system.free.len() + system.poles.of_p.len()];
+        let last = system.free.len() - 1;
         by_limits[if side == Side::Left { 0 } else { last }] = one;
         system.besides = Some(Besides { by_limits, by_unknown: zero, others });
     }
@@ -248,31 +320,41 @@ impl<T: Real> Several<T> {
     /// Adds one unknown, the tilt of the bodies, and one condition: the load acts at a given place.
     ///
     /// ```text
-    /// M = (1/π) ∫ w p q (x - x₀) g ds - ρ₁ F = 0
-    /// by a limit e: (e - x₀)² V(e)/2π, with corners (e - x₀) V(e)/2π
+    /// M = (1/π) ∫ w p q (x - x₀) g ds - ρ₁ F = 0,   with more corners than contacts (1/π) ∫ w p g ds + Σ c - ρ₁ F
+    /// by a limit e: (e - x₀)² V(e)/2π, with corners (e - x₀) V(e)/2π, with more V(e)/2π
     /// ```
     ///
     /// All conditions are linear in g, so their derivatives by the tilt are their values for g = 1
-    /// and a gap that rises by its width: there `V = -π p/S` off the contacts, plus π with corners.
+    /// and a gap that rises by its width: there `V = -π p/S` off the contacts, plus π times the
+    /// [polynomial](Self::polynomial).
     pub fn turning(&self, load: T, at: T, system: &mut System<T>) {
         let (zero, half, pi) = (T::zero(), T::of(0.5), T::pi());
-        let (hull, no_corners) = (self.hull(), self.has_no_corners());
-        let zeros = self.weight.zeros().len();
+        let (centre, inverse) = (self.hull().plain().centre(), self.weight.is_inverse());
         let mut others = vec![zero; system.residual.len()];
-        *others.last_mut().unwrap_or(&mut T::zero()) = -system.over_last;
-        let balance = if no_corners { zeros..zeros + 1 } else { 0..zeros };
-        others[balance].fill(pi);
-        others[system.load_row] = self.afar(&system.poles.at, hull.plain().centre())[0];
-        let borne = self.powers(at)[usize::from(no_corners)];
-        let [first, by_unknown] = self.afar(&system.poles.at, at);
-        let reach = (hull.left - at).abs().max((hull.right - at).abs());
-        let reach = if no_corners { reach * reach } else { reach };
-        system.add(borne - first * load, self.sum(|part| part.moments.error) * reach);
-        let by_limit = |i: usize| {
+        let gaps = others.len() - system.by_tilt.len();
+        others[gaps..].copy_from_slice(&system.by_tilt);
+        others[..system.load_row].fill(pi);
+        if !inverse {
+            others[system.load_row] = self.afar(&system.poles.at, centre)[0];
+        }
+        let [first, mut by_unknown] = self.afar(&system.poles.at, at);
+        let no_corners = self.weight.corners() == 0;
+        let mut borne = self.powers(at)[usize::from(no_corners)];
+        let power = if no_corners { 2 } else { 1 - i32::from(inverse) };
+        if inverse {
+            let sum = |terms: &Terms<T>| terms.poles.iter().fold(zero, |sum, &(.., by)| sum + by);
+            borne = self.sum(|part| part.moments.m0) + sum(&self.terms) * -T::frac_1_pi();
+            by_unknown -= sum(&system.polynomial);
+        }
+        let reach = (self.hull().left - at).abs().max((self.hull().right - at).abs());
+        let error = self.sum(|part| part.moments.error) * reach.powi(power);
+        system.add(borne - first * load, error);
+        let by_limit = |&i: &usize| {
             let away = system.limits[i] - at;
-            half * if no_corners { away * away } else { away } * system.at_ends[i] / pi
+            half * away.powi(power) * system.at_ends[i] / pi
         };
-        let by_limits = system.free.clone().map(by_limit).collect();
+        let mut by_limits: Vec<_> = system.free.iter().map(by_limit).collect();
+        by_limits.resize(by_limits.len() + system.poles.of_p.len(), T::one());
         system.besides = Some(Besides { by_limits, by_unknown, others });
     }
 }

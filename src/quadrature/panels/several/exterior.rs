@@ -4,7 +4,7 @@
 use super::one_of_several::OneOfSeveral;
 use super::{Several, System};
 use crate::quadrature::panels::PanelSet;
-use crate::{Ends, Real, Side};
+use crate::{Real, Side};
 
 impl<T: Real> Several<T> {
     /// Creates contacts on panel sets that were sampled elsewhere, one contact for each.
@@ -14,11 +14,20 @@ impl<T: Real> Several<T> {
         several
     }
 
-    /// Sets the load F/κ where the contacts do not determine it: the only one between two corners
-    /// carries any load.
-    pub fn bear(&mut self, load: T) {
-        let is_given = self.parts.len() == 1 && self.corners() == Ends::both(true);
-        self.constant = if is_given { -T::pi() * load } else { T::zero() };
+    /// Sets up the conditions of contacts with right limits for a load, given as F/κ: open are only
+    /// the residues at the poles of p, on which the conditions depend linearly.
+    pub fn bear(&mut self, load: T, system: &mut System<T>) {
+        let mut residues = vec![T::zero(); self.weight.poles()];
+        self.carry(load, &residues);
+        self.system(load, system);
+        if !residues.is_empty() && system.factor() {
+            let mut step = Vec::new();
+            system.step(&mut step);
+            let steps = &step[system.free.len()..];
+            residues.iter_mut().zip(steps).for_each(|(residue, &step)| *residue -= step);
+            self.carry(load, &residues);
+            self.system(load, system);
+        }
     }
 
     /// Returns `Φ/κ`, the part of the gap's slope that the pressure takes off, at a distance beyond
@@ -37,8 +46,8 @@ impl<T: Real> Several<T> {
             Side::Right => Some(contact).filter(|k| k + 1 < self.parts.len()),
         };
         let Some(k) = in_gap else {
-            return -self.weight.beyond(side, x, distance) * (value(distance) + self.constant)
-                / T::pi();
+            let value = value(distance) + self.terms.at(x);
+            return -self.weight.beyond(side, x, distance) * value / T::pi();
         };
         let width = self.parts[k + 1].on.left - self.parts[k].on.right;
         let mut distances = [distance, width - distance];
@@ -47,8 +56,7 @@ impl<T: Real> Several<T> {
         }
         // At the zero itself the quotient is a derivative: take it at a place next to the zero.
         let aside = T::epsilon().sqrt() * width;
-        let is_close = |&zero: &T| (x - zero).abs() < aside;
-        let is_at_zero = self.weight.zeros().get(k).is_some_and(is_close);
+        let is_at_zero = self.weight.zero(k).is_some_and(|zero| (x - zero).abs() < aside);
         let distance = if is_at_zero { distance + aside } else { distance };
         let without = self.without_zero(k, system, place(distance), value(distance));
         -self.weight.in_gap(k, x, distances) * without / T::pi()

@@ -9,7 +9,8 @@
 //! ```
 //!
 //! The sum of these over the free limits, each times de/dF, is ∂P/∂F: the pressure of a flat punch
-//! on all contacts under a unit load, whatever the bodies.
+//! on all contacts under a unit load, whatever the bodies. With more corners than contacts the
+//! [terms](super::terms) of V follow the load, too.
 
 use super::weight::Weight;
 use super::{Several, System};
@@ -19,8 +20,10 @@ use crate::{Ends, Interval, Real, Side};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LoadResponse<T> {
     weight: Weight<T>,
-    /// Free limits e, and the numerators over `x - e`.
+    /// Free limits e and poles of p, and the numerators over `x - e`.
     terms: Vec<[T; 2]>,
+    /// Constant term.
+    constant: T,
 }
 
 impl<T: Real> Several<T> {
@@ -37,15 +40,21 @@ impl<T: Real> Several<T> {
         system.solve(&unit, &mut step);
         let mut rates = vec![Ends::both(T::zero()); self.parts.len()];
         let mut terms = Vec::with_capacity(step.len());
-        for (i, rate) in self.free().zip(step) {
+        let per_pi = -T::frac_1_pi();
+        let of_poles = &step[system.free.len()..];
+        let by_poles = system.poles.of_p.iter().zip(of_poles);
+        let inverse = self.weight.is_inverse();
+        let constant = if inverse { per_pi } else { T::zero() };
+        terms.extend(by_poles.map(|(&[x, _], &rate)| [x, per_pi * rate]));
+        for (&i, &rate) in system.free.iter().zip(&step) {
             if !rate.is_finite() {
                 return None;
             }
             rates[i / 2][Side::BOTH[i % 2]] = rate;
-            let share = -T::of(0.5) * system.at_ends[i] * rate / (T::pi() * T::pi());
+            let share = T::of(0.5) * system.at_ends[i] * rate * per_pi * T::frac_1_pi();
             terms.push([system.limits[i], share]);
         }
-        Some((rates, LoadResponse { weight: self.weight.clone(), terms }))
+        Some((rates, LoadResponse { weight: self.weight.clone(), terms, constant }))
     }
 }
 
@@ -56,7 +65,7 @@ impl<T: Real> LoadResponse<T> {
 
     /// Returns the pressure at a place strictly inside a contact, given its number.
     pub fn pressure(&self, contact: usize, x: T) -> T {
-        let sum = self.terms.iter().fold(T::zero(), |sum, &[e, share]| sum + share / (x - e));
+        let sum = self.terms.iter().fold(self.constant, |sum, &[e, share]| sum + share / (x - e));
         let root = self.contacts()[contact].chebyshev_weight(x);
         root / self.weight.on_contact(contact, [x])[0] * sum
     }

@@ -31,7 +31,7 @@ impl<T: Real> Several<T> {
             for (lane, pressure) in out.iter_mut().enumerate() {
                 let x = lanes[lane];
                 let near = self.far.near(i).filter(|&k| k != i);
-                let others = self.outside(near, x, None) + self.far.far(i, [x])[0] + self.constant;
+                let others = self.outside(near, x, None) + self.far.far(i, [x])[0] + self.terms.at(x);
                 let weight = self.weight.on_contact(i, [x])[0];
                 *pressure = (own[lane] + root[lane] * others) / (T::pi() * T::pi() * weight);
             }
@@ -55,13 +55,12 @@ impl<T: Real> Several<T> {
         (part.error(x) + of_edges + T::pi() * root * by_others) / scale
     }
 
-    /// Returns the strength `K/κ` of the singularity at a corner, `P ≈ K/sin θ`; zero at a free
-    /// limit.
-    pub fn strength(&self, side: Side) -> T {
-        if !self.corners()[side] {
+    /// Returns the strength `K/κ` of the singularity at a limit, `P ≈ K/sin θ`; zero if it is free.
+    pub fn strength(&self, contact: usize, side: Side) -> T {
+        if !self.held()[contact][side] {
             return T::zero();
         }
-        let sign = T::of(if side == Side::Left { 2.0 } else { -2.0 });
-        sign * self.at_outer_end(side) / (T::pi() * T::pi() * self.weight.beside_corner(side))
+        let scale = T::pi() * T::pi() * self.weight.beside_corner(contact, side);
+        T::of(2.0) * self.at_end_by_each(contact, side) / scale
     }
 }

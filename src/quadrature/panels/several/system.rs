@@ -19,11 +19,20 @@
 //! of the load:  -(C + 2 ρ₁ D)/π without corners, with ρ₁ of Several::afar, else -Σ C/π
 //! ```
 //!
+//! With n > N corners W has the further terms `-π δc/(x - ν)`, and at infinity the step of the load
+//! F, `-π δF`. There are no conditions of balance, and Q is `Σ C_z/(x - z)`, with n constants for
+//! the N - 1 gaps and
+//!
+//! ```text
+//! Q(ν) = 0 at each pole of p        Σ C_z = 0        -Σ C_z (z - x₀)/π = δF
+//! δc = -Q'(ν)/(π A)                                  A = S²/p_k² at ν
+//! ```
+//!
 //! A gap acts on another by the inverse square of their distance: next to its pole, `p/S` is odd.
 
+use super::terms::Terms;
 use crate::Real;
 use crate::numerics::{Combine, FarField, LinearSystem, dot};
-use std::ops::Range;
 
 /// Conditions on the free limits, from left to right, linearised.
 #[derive(Clone)]
@@ -36,8 +45,8 @@ pub(crate) struct System<T> {
     pub lost: Option<usize>,
     /// Number of the load condition, after those of balance.
     pub load_row: usize,
-    /// Numbers of the free limits.
-    pub free: Range<usize>,
+    /// Numbers of the free limits, rising.
+    pub free: Vec<usize>,
     /// Limits, from left to right.
     pub(super) limits: Vec<T>,
     /// V at the limits, signed as where the pressure next to them is positive.
@@ -46,9 +55,11 @@ pub(crate) struct System<T> {
     pub(super) slopes: Vec<T>,
     /// Parts of V by the contacts far from each gap.
     pub(super) far: FarField<T>,
-    /// Integral `∫ S/p dx` over the last gap, if that has no zero of p.
-    pub(super) over_last: T,
+    /// Changes of the gaps by a tilt of the bodies.
+    pub(super) by_tilt: Vec<T>,
     pub(super) poles: Poles<T>,
+    /// Polynomial part of `p/S`, with the poles of p.
+    pub(super) polynomial: Terms<T>,
     /// Changes of the load and of each gap, a row for each: by the constants, by V at the zeros,
     /// and by D.
     pub(super) rows: Vec<T>,
@@ -68,6 +79,8 @@ pub(super) struct Poles<T> {
     pub squares: Vec<T>,
     /// Center c; `None` with corners.
     pub centre: Option<T>,
+    /// Poles of p, each with its `A`.
+    pub of_p: Vec<[T; 2]>,
 }
 
 /// Condition for an unknown besides the limits.
@@ -84,6 +97,13 @@ impl<T: Real> Poles<T> {
     /// Returns the number of constants.
     pub fn count(&self) -> usize {
         self.at.len() + usize::from(self.centre.is_some())
+    }
+
+    /// Returns the step of the residue at a pole of p, from the constants.
+    fn residue(&self, [x, square]: [T; 2], constants: &[T]) -> T {
+        let both = self.at.iter().zip(constants);
+        both.fold(T::zero(), |sum, (&at, &constant)| sum + constant / (x - at).powi(2))
+            / (T::pi() * square)
     }
 
     /// Adds a share of Q at a place to a row.
@@ -118,21 +138,23 @@ impl<T: Real> Poles<T> {
 
 impl<T: Real> System<T> {
     pub fn new() -> Self {
-        let [residual, open, limits, at_ends, slopes] = Default::default();
+        let [residual, open, limits, at_ends, slopes, by_tilt] = Default::default();
         let [at, squares, rows, row, known] = Default::default();
+        let (free, of_p) = (Vec::new(), Vec::new());
         let (far, linear) = (FarField::new(Combine::Sum), LinearSystem::new());
         Self {
             residual,
             open,
             lost: None,
             load_row: 0,
-            free: 0..0,
+            free,
             limits,
             at_ends,
             slopes,
             far,
-            over_last: T::zero(),
-            poles: Poles { at, squares, centre: None },
+            by_tilt,
+            poles: Poles { at, squares, centre: None, of_p },
+            polynomial: Terms::none(),
             rows,
             besides: None,
             linear,
@@ -159,7 +181,8 @@ impl<T: Real> System<T> {
         is_regular
     }
 
-    /// Computes the step against the residuals: of the free limits, and of the unknown besides.
+    /// Computes the step against the residuals: of the free limits, of the residues at the poles of
+    /// p, and of the unknown besides.
     pub fn step(&mut self, step: &mut Vec<T>) {
         let residual = std::mem::take(&mut self.residual);
         self.solve(&residual, step);
@@ -171,21 +194,22 @@ impl<T: Real> System<T> {
         let Self { poles, row, known, .. } = self;
         let n = poles.count();
         let (balance, others) = values.split_at(self.load_row);
-        let rows = self.rows.chunks_exact(2 * n).zip(others);
+        let rows = self.rows.chunks_exact(2 * n);
+        let besides = others.get(rows.len()).map_or(T::zero(), |&value| value);
         row.clear();
-        row.extend(rows.map(|(row, &value)| value + dot(&row[n..n + balance.len()], balance)));
+        row.extend(rows.zip(others).map(|(row, &value)| value + dot(&row[n..n + balance.len()], balance)));
         // The constants with the sign of a step, so the known part of Q, too.
         self.linear.solve(row, known);
         known.extend(balance.iter().map(|&value| -value));
         known.resize(2 * n, T::zero());
         step.clear();
-        step.extend(self.free.clone().map(|i| {
+        step.extend(self.free.iter().map(|&i| {
             let by_limit = -T::of(2.0) / (self.slopes[i] * self.at_ends[i]);
             by_limit * poles.value(self.limits[i], known)
         }));
+        step.extend(poles.of_p.iter().map(|&pole| poles.residue(pole, known)));
         if let Some(Besides { by_limits, by_unknown, others }) = &self.besides {
-            let value = values.get(by_limits.len()).map_or(T::zero(), |&value| value);
-            let open = value - dot(by_limits, step);
+            let open = besides - dot(by_limits, step);
             let unknown = open / (*by_unknown - dot(by_limits, others));
             step.iter_mut().zip(others).for_each(|(step, &by)| *step -= unknown * by);
             step.push(unknown);

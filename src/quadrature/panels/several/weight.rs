@@ -1,15 +1,17 @@
 //! The weight of several contacts.
 //!
-//! With `R(x) = Π (x - α_j)(x - β_j)` over the contacts `[α_j, β_j]`, z their corners (outermost
-//! limits only) and ν_k the middles of the gaps between them,
+//! With `R(x) = Π (x - α_j)(x - β_j)` over the N contacts `[α_j, β_j]` and z the n limits that are
+//! held at corners,
 //!
 //! ```text
-//! p(x) = Π (x - ν_k)        S(x) = sqrt(R(x))/Π (x - z)        w = 1/S
+//! S(x) = sqrt(R(x))/Π (x - z)        w = 1/S        p(x) = Π (x - ν)
 //! ```
 //!
-//! with the sign of `(-1)^(number of contacts to the right)`. For many contacts w alone overflows;
-//! `w p` does not: each factor of R has one of p close by, and `w p` keeps its sign over a contact.
-//! With two corners the degree of p is one less, and the last gap has no zero.
+//! with the sign of `(-1)^(number of contacts to the right)` in the root. For many contacts w alone
+//! overflows; `w p` does not: with zeros ν in the middle of gaps, each factor of S has one of p close
+//! by, and `w p` keeps its sign over a contact. Without corners every gap has a zero, else N - n of
+//! them. More corners than contacts leave n - N - 1 *poles* instead: p is one over the product, and
+//! each ν lies in a gap between two corners, so that it stays in place.
 
 use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real, Side};
@@ -21,47 +23,127 @@ pub(super) struct Weight<T> {
     /// Squares of the factors by far contacts, for each contact and for the gap after it; coarse
     /// for a trial.
     pub far: FarField<T>,
-    /// True at an outermost limit that is a corner.
-    corners: Ends<bool>,
-    zeros: Vec<T>,
+    /// Flags: a corner holds this limit of a contact.
+    held: Vec<Ends<bool>>,
+    /// Number of them.
+    corners: usize,
+    /// Zero or pole of p in each gap, if it has one.
+    middles: Vec<Option<T>>,
+    /// Flags: `w p` changes its sign an odd number of times to the right of a contact.
+    flips: Vec<bool>,
 }
 
 impl<T: Real> Weight<T> {
     pub fn new() -> Self {
-        let (corners, far) = (Ends::both(false), FarField::new(Combine::Product));
-        Self { on: Vec::new(), far, corners, zeros: Vec::new() }
+        let (far, held) = (FarField::new(Combine::Product), Vec::new());
+        let (on, middles, flips) = (Vec::new(), Vec::new(), Vec::new());
+        Self { on, far, held, corners: 0, middles, flips }
     }
 
-    pub fn set(&mut self, on: &[Interval<T>], corners: Ends<bool>, is_coarse: bool) {
+    /// Sets the contacts, and the limits of each that are held.
+    pub fn set(&mut self, on: &[Interval<T>], held: &[Ends<bool>], is_coarse: bool) {
         self.on.clear();
         self.on.extend_from_slice(on);
-        self.corners = corners;
-        let last = usize::from(corners == Ends::both(true));
-        let half = T::of(0.5);
-        self.zeros.clear();
-        let gaps = on.windows(2).map(|pair| half * pair[0].right + half * pair[1].left);
-        self.zeros.extend(gaps.take((on.len() - 1).saturating_sub(last)));
+        self.held.clear();
+        self.held.extend_from_slice(held);
+        self.corners = held.iter().map(|&held| count(held)).sum();
+        self.choose_middles();
+        self.flips.clear();
+        self.flips.resize(on.len(), false);
+        for k in (0..on.len() - 1).rev() {
+            let to_right = 1 + count(held[k + 1]) + usize::from(self.middles[k].is_some());
+            self.flips[k] = self.flips[k + 1] != (to_right % 2 == 1);
+        }
         let gap = |i: usize| Interval { left: on[i].right, right: on[i + 1].left };
         let place = |i: usize| if i.is_multiple_of(2) { on[i / 2] } else { gap(i / 2) };
         let mut far = std::mem::replace(&mut self.far, FarField::new(Combine::Product));
         far.set(on, (0..2 * on.len() - 1).map(place), is_coarse, &|k, x| {
-            let [on, zero] = self.factors(k, x > on[k].right, x);
-            zero / on
+            let [square] = self.square_by(k, x > on[k].right, [x]);
+            square
         });
         self.far = far;
+    }
+
+    /// Puts zeros or poles into gaps, next to contacts with few or with many corners: far away the
+    /// factors of neighbours then cancel.
+    fn choose_middles(&mut self) {
+        let (half, gaps) = (T::of(0.5), self.on.len() - 1);
+        let is_fixed = |k: usize| self.held[k].right && self.held[k + 1].left;
+        let inverse = self.is_inverse();
+        let may = |k: &usize| !inverse || is_fixed(*k);
+        let mut needed = match (inverse, self.corners) {
+            (true, n) => n - self.on.len() - 1,
+            (false, 0) => gaps,
+            (false, n) => self.on.len() - n,
+        };
+        let mut places = (0..gaps).filter(may).count();
+        // Corners and zeros so far, less poles.
+        let mut have = 0;
+        self.middles.clear();
+        for k in 0..gaps {
+            have += count(self.held[k]);
+            let serves = may(&k);
+            let wants = if inverse { have > k + 1 } else { have < k + 1 };
+            let takes = serves && needed > 0 && (wants || needed == places);
+            places -= usize::from(serves);
+            if takes {
+                needed -= 1;
+                have = if inverse { have - 1 } else { have + 1 };
+            }
+            let middle = half * self.on[k].right + half * self.on[k + 1].left;
+            self.middles.push(takes.then_some(middle));
+        }
     }
 
     pub fn contacts(&self) -> &[Interval<T>] {
         &self.on
     }
 
-    pub fn corners(&self) -> Ends<bool> {
+    /// Returns the limits of each contact that are held.
+    pub fn held(&self) -> &[Ends<bool>] {
+        &self.held
+    }
+
+    /// Returns the number of limits that are held.
+    pub fn corners(&self) -> usize {
         self.corners
     }
 
-    /// Returns the zeros of p: number k lies in gap k.
-    pub fn zeros(&self) -> &[T] {
-        &self.zeros
+    /// Returns the corners at which limits are held.
+    pub fn held_limits(&self) -> impl Iterator<Item = T> {
+        self.on.iter().zip(&self.held).flat_map(|(on, held)| {
+            Side::BOTH.into_iter().filter(|&side| held[side]).map(|side| on[side])
+        })
+    }
+
+    /// Tells whether there are more corners than contacts: p has poles.
+    pub fn is_inverse(&self) -> bool {
+        self.corners > self.on.len()
+    }
+
+    /// Returns the zero or pole of p in each gap, if it has one.
+    pub fn middles(&self) -> &[Option<T>] {
+        &self.middles
+    }
+
+    /// Returns the zero of p in a gap.
+    pub fn zero(&self, k: usize) -> Option<T> {
+        self.middles[k].filter(|_| !self.is_inverse())
+    }
+
+    /// Returns the number of poles of p.
+    pub fn poles(&self) -> usize {
+        if self.is_inverse() { self.corners - self.on.len() - 1 } else { 0 }
+    }
+
+    /// Returns the pole of p in a gap.
+    pub fn pole(&self, k: usize) -> Option<T> {
+        self.middles[k].filter(|_| self.is_inverse())
+    }
+
+    /// Returns the zeros or poles of p, each with the number of its gap.
+    pub fn numbered(&self) -> impl Iterator<Item = (usize, T)> {
+        self.middles.iter().enumerate().filter_map(|(k, &middle)| Some((k, middle?)))
     }
 
     /// Returns the number of the first or the last contact.
@@ -69,27 +151,23 @@ impl<T: Real> Weight<T> {
         if side == Side::Left { 0 } else { self.on.len() - 1 }
     }
 
-    /// Returns `x - z` for the corner z on one side; 1 without a corner.
-    fn corner_distance(&self, side: Side, x: T) -> T {
-        let limit = self.on[self.outermost(side)][side];
-        if self.corners[side] { x - limit } else { T::one() }
-    }
-
-    /// Returns `Π (x - z)` over the corners.
-    fn corner_factor(&self, x: T) -> T {
-        self.corner_distance(Side::Left, x) * self.corner_distance(Side::Right, x)
-    }
-
     /// Returns `w p sqrt((x - α_i)(β_i - x))` at places in contact i.
     pub fn on_contact<const W: usize>(&self, i: usize, x: [T; W]) -> [T; W] {
         let squares = self.squares([i, i], self.far.near(2 * i), self.far.far(2 * i, x), x);
-        std::array::from_fn(|j| self.sign_on(i) * squares[j].sqrt() * self.corner_factor(x[j]))
+        let (on, held, sign) = (self.on[i], self.held[i], self.sign_on(i));
+        let mut values = squares.map(|square| sign * square.sqrt());
+        if held.left {
+            values.iter_mut().zip(&x).for_each(|(value, &x)| *value *= x - on.left);
+        }
+        if held.right {
+            values.iter_mut().zip(&x).for_each(|(value, &x)| *value *= on.right - x);
+        }
+        values
     }
 
     /// Returns the sign of `w p` on a contact.
     fn sign_on(&self, i: usize) -> T {
-        // Contacts and zeros of p to the right of this one.
-        Self::sign(self.on.len() - 1 - i + self.zeros.len().saturating_sub(i))
+        sign(self.flips[i] != self.held[i].right)
     }
 
     /// Multiplies by the squares of the factors at places x by some contacts, but those from the
@@ -102,59 +180,83 @@ impl<T: Real> Weight<T> {
         x: [T; W],
     ) -> [T; W] {
         for k in contacts.filter(|k| !(first..=last).contains(k)) {
-            for (square, &x) in squares.iter_mut().zip(&x) {
-                let [on, zero] = self.factors(k, k < first, x);
-                *square *= zero / on;
-            }
+            let by = self.square_by(k, k < first, x);
+            squares.iter_mut().zip(by).for_each(|(square, by)| *square *= by);
         }
         squares
     }
 
-    /// Returns `(x - α_k)(x - β_k)`, and the square of the distance to the zero of p between
-    /// contact k and x, to its right or to its left.
-    fn factors(&self, k: usize, to_right: bool, x: T) -> [T; 2] {
-        let (on, zero) = (self.on[k], self.zeros.get(if to_right { k } else { k - 1 }));
-        let square = zero.map_or(T::one(), |&zero| (x - zero) * (x - zero));
-        [(x - on.left) * (x - on.right), square]
+    /// Returns the square of the factors by contact k at places x, and by the zero or pole between
+    /// it and them.
+    #[inline(always)]
+    fn square_by<const W: usize>(&self, k: usize, to_right: bool, x: [T; W]) -> [T; W] {
+        let on = self.on[k];
+        // Outside the contact both distances have the same sign.
+        let root = match self.held[k] {
+            Ends { left: false, right: false } => {
+                x.map(|x| T::one() / ((x - on.left) * (x - on.right)))
+            }
+            Ends { left: true, right: false } => x.map(|x| (x - on.left) / (x - on.right)),
+            Ends { left: false, right: true } => x.map(|x| (x - on.right) / (x - on.left)),
+            Ends { left: true, right: true } => x.map(|x| (x - on.left) * (x - on.right)),
+        };
+        let gap = if to_right { Some(k) } else { k.checked_sub(1) };
+        let Some(middle) = gap.and_then(|gap| *self.middles.get(gap)?) else { return root };
+        let inverse = self.is_inverse();
+        std::array::from_fn(|i| {
+            let square = (x[i] - middle) * (x[i] - middle);
+            if inverse { root[i] / square } else { root[i] * square }
+        })
     }
 
-    /// Returns [`on_contact`](Self::on_contact) at a corner, without the factor that vanishes
-    /// there.
-    pub fn beside_corner(&self, side: Side) -> T {
-        let i = self.outermost(side);
-        let corner = self.on[i][side];
-        let [square] = self.squares([i, i], 0..self.on.len(), [T::one()], [corner]);
-        self.sign_on(i) * square.sqrt() * self.corner_distance(side.other(), corner)
+    /// Returns [`on_contact`](Self::on_contact) at a corner over the distance from it.
+    pub fn beside_corner(&self, i: usize, side: Side) -> T {
+        let on = self.on[i];
+        let [square] = self.squares([i, i], 0..self.on.len(), [T::one()], [on[side]]);
+        let width = if self.held[i][side.other()] { on.right - on.left } else { T::one() };
+        self.sign_on(i) * square.sqrt() * width
     }
 
-    /// Returns `S/p` at a place in gap k, without the zero of p in that gap, given the distances to
-    /// both ends of the gap.
+    /// Returns `S/p` at a place in gap k, without the zero or pole of p in that gap, given the
+    /// distances to both ends of the gap.
     pub fn in_gap(&self, k: usize, x: T, [from_left, to_right]: [T; 2]) -> T {
         let [left, right] = [self.on[k], self.on[k + 1]];
         let (others, far) = (self.far.near(2 * k + 1), self.far.far(2 * k + 1, [x]));
         let [square] = self.squares([k, k + 1], others, far, [x]);
-        let near = (from_left * (x - left.left)).sqrt() * (to_right * (right.right - x)).sqrt();
-        let flips = self.on.len() - 1 - k + self.zeros.len().saturating_sub(k + 1);
-        Self::sign(flips) * near / (square.sqrt() * self.corner_factor(x))
+        let near = root_over(self.held[k], [x - left.left, from_left])
+            * root_over(self.held[k + 1], [to_right, right.right - x]);
+        sign::<T>(self.flips[k] != self.middles[k].is_some()) * near / square.sqrt()
     }
 
     /// Returns `S/p` beyond all contacts, on one side, given the distance from the outermost limit.
     pub fn beyond(&self, side: Side, x: T, distance: T) -> T {
         let own = self.outermost(side);
-        let size = distance.sqrt() * (distance + (self.on[own].right - self.on[own].left)).sqrt();
-        let (outward, flips) = match side {
-            Side::Left => (-distance, self.on.len() + self.zeros.len()),
-            Side::Right => (distance, 0),
+        let far = distance + (self.on[own].right - self.on[own].left);
+        let (distances, flips) = match side {
+            Side::Left => {
+                ([distance, far], self.flips[0] != (count(self.held[0]).is_multiple_of(2)))
+            }
+            Side::Right => ([far, distance], false),
         };
-        // A corner on this side is at the distance of the limit.
-        let factor = if self.corners[side] { outward } else { T::one() };
-        let factor = factor * self.corner_distance(side.other(), x);
         let [square] = self.squares([own, own], 0..self.on.len(), [T::one()], [x]);
-        Self::sign(flips) * size / (square.sqrt() * factor)
+        sign::<T>(flips) * root_over(self.held[own], distances) / square.sqrt()
     }
+}
 
-    /// Returns the sign of a root after a number of branch points.
-    fn sign(flips: usize) -> T {
-        if flips.is_multiple_of(2) { T::one() } else { -T::one() }
-    }
+/// Returns the number of limits of a contact that are held.
+fn count(held: Ends<bool>) -> usize {
+    held.into_iter().filter(|&held| held).count()
+}
+
+/// Returns the root of the distances from both limits of a contact, over those from held ones.
+fn root_over<T: Real>(held: Ends<bool>, [from_left, from_right]: [T; 2]) -> T {
+    let root = |is_held: bool, distance: T| {
+        if is_held { T::one() / distance.sqrt() } else { distance.sqrt() }
+    };
+    root(held.left, from_left) * root(held.right, from_right)
+}
+
+/// Returns the sign after an odd or even number of changes.
+fn sign<T: Real>(flips: bool) -> T {
+    if flips { -T::one() } else { T::one() }
 }

@@ -20,7 +20,10 @@ impl<T: Real> NewtonSeveral<T> {
     pub(super) fn shorten(&mut self) {
         self.widths.clear();
         let (half, last) = (T::of(0.5), self.moves.len() - 1);
-        for i in self.free() {
+        for i in 0..=last {
+            if !self.moves_freely(i) {
+                continue;
+            }
             let (contact, is_left) = (i - i % 2, self.moves[i] < T::zero());
             let beside = if is_left { i.checked_sub(1) } else { Some(i).filter(|&i| i < last) };
             let most = |i: Width| half * (T::one() - self.least(i)) * self.width(i);
@@ -69,13 +72,13 @@ impl<T: Real> NewtonSeveral<T> {
             let correction = next - (width + change);
             // Both limits share the correction, but a narrow neighbour has no room for it, and a
             // corner stays.
-            let room = |beside: Option<Width>, corner: bool| match beside {
+            let room = |limit: usize, beside: Option<Width>| match beside {
+                _ if !self.moves_freely(limit) => zero,
                 Some(beside) => width.min(self.width(beside)),
-                None if corner => zero,
                 None => width,
             };
-            let left = room(i.checked_sub(1), self.held.left);
-            let right = room((i + 2 < count).then_some(i + 1), self.held.right);
+            let left = room(i, i.checked_sub(1));
+            let right = room(i + 1, (i + 2 < count).then_some(i + 1));
             // Both limits are held.
             if (left + right).is_zero() {
                 continue;
