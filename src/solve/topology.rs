@@ -163,10 +163,10 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         if is_shut && self.end_touched_first().is_some() {
             return Ok(true);
         }
-        // If the bodies turn, one contact may be hard to find, too; likewise among waves not yet
-        // seen.
+        // If the bodies turn, one contact may be hard to find, too; likewise at corners, and among
+        // waves not yet seen.
         let is_lost = matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }));
-        let is_convex = self.is_convex() && !self.corrects_survey()?;
+        let is_convex = self.is_convex() && !self.corrects_survey()? && !self.has_corners()?;
         Ok(!self.turns() && (is_convex || !is_lost && self.look()?.bulges()))
     }
 

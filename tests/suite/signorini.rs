@@ -15,6 +15,7 @@
 //! in each test, from the seed `FIRST` on.
 
 mod equal_crests;
+mod inner_corners;
 
 use crate::random_scenes::Dice;
 use linecontact::profile::{Fit, Spline};
@@ -48,13 +49,13 @@ struct Series {
 }
 
 impl Series {
-    fn new(on: Interval<f64>, solution: &Solution<f64>, load: f64) -> Self {
+    fn new(on: Interval<f64>, solution: &Solution<f64>, load: f64, goal: f64) -> Self {
         let pressure = solution.pressure().unwrap();
         let mut count = TERMS[0];
         loop {
             let series = Self::of(on, count, &|x, p| pressure.at_many(x, p).unwrap());
             let is_left = |share: f64| series.tail > share * load;
-            if !is_left(TAIL[usize::from(count >= TERMS[1])]) || count == TERMS[2] {
+            if !is_left(if count >= TERMS[1] { goal.max(TAIL[1]) } else { goal }) || count == TERMS[2] {
                 return series;
             }
             count *= 2;
@@ -146,6 +147,8 @@ struct Bodies<'h> {
     kappa: f64,
     /// Places from end to end, several for each wave, or between two measured points.
     places: Vec<f64>,
+    /// Tail at which a series ends, as a share of the load.
+    tail: f64,
 }
 
 /// Violations of the conditions of contact: potentials as shares of the load.
@@ -183,7 +186,7 @@ struct Judge<'h> {
 
 impl<'h> Judge<'h> {
     fn new(bodies: &'h Bodies<'h>, solution: &Solution<f64>, load: f64) -> Self {
-        let series = |on: &Interval<f64>| Series::new(*on, solution, load);
+        let series = |on: &Interval<f64>| Series::new(*on, solution, load, bodies.tail);
         Self::of(bodies, solution.intervals().iter().map(series).collect(), load)
     }
 
@@ -526,7 +529,7 @@ fn waves_touch_as_bodies_do() {
             Ok(contact.solve(Control::Load(load))?.intervals().to_vec())
         };
         let height = |x: f64| scene.at(x)[0];
-        let bodies = Bodies { height: &height, kappa: scene.kappa, places: scene.places(12.0) };
+        let bodies = Bodies { tail: TAIL[0], height: &height, kappa: scene.kappa, places: scene.places(12.0) };
         tally.take(&format!("{seed} {scene:?}"), &contact, &wide, &bodies, load, WAVES);
     }
     tally.finish();
@@ -575,7 +578,7 @@ fn no_wrong_answer_of_a_loose_tolerance_is_certified() {
         let contact = Contact::new(&Flat, &body).unwrap().quadrature(&rule).single_interval(true);
         let Ok(solution) = contact.solve(Control::Load(load)) else { continue };
         let height = |x: f64| scene.at(x)[0];
-        let bodies = Bodies { height: &height, kappa: 1.0, places: scene.places(12.0) };
+        let bodies = Bodies { tail: TAIL[0], height: &height, kappa: 1.0, places: scene.places(12.0) };
         let faults = judge(&bodies, &solution, load);
         let is_wrong = faults.tension > 0.02 || faults.overlap > 0.02;
         let is_certified = solution.certify().is_ok();
@@ -721,7 +724,7 @@ fn rough_points_touch_as_bodies_do() {
         let contact = Contact::new(&Flat, &body).unwrap();
         let height = |x: f64| body.at(x).y;
         let places = scene.places();
-        let bodies = Bodies { height: &height, kappa: 1.0, places };
+        let bodies = Bodies { tail: TAIL[0], height: &height, kappa: 1.0, places };
         let wide = || Ok(contact.solve(Control::Load(scene.load))?.intervals().to_vec());
         let name = format!("{seed} {}", scene.name);
         tally.take(&name, &contact, &wide, &bodies, scene.load, SPLINES);
@@ -778,7 +781,7 @@ fn measured_points_touch_as_bodies_do() {
             Ok(contact.solve(Control::Load(scene.load))?.intervals().to_vec())
         };
         let height = |x: f64| body.at(x).y;
-        let bodies = Bodies { height: &height, kappa: 1.0, places: scene.places() };
+        let bodies = Bodies { tail: TAIL[0], height: &height, kappa: 1.0, places: scene.places() };
         let name = format!("{seed} {}", scene.name);
         tally.take(&name, &contact, &wide, &bodies, scene.load, SPLINES);
     }
@@ -841,7 +844,7 @@ fn wavy_bodies_come_nearer_by_what_is_defined() {
             }
         };
         let height = |x: f64| scene.at(x)[0];
-        let bodies = Bodies { height: &height, kappa, places: scene.places(12.0) };
+        let bodies = Bodies { tail: TAIL[0], height: &height, kappa, places: scene.places(12.0) };
         let judge = Judge::new(&bodies, &solution, load);
         let number = (dice.uniform() * judge.contacts.len() as f64) as usize;
         let angle = dice.within(0.1, 3.0);
@@ -950,7 +953,7 @@ fn the_judge_knows_closed_forms_and_what_is_wrong() {
         let contact = Contact::new(&Flat, &parabola).unwrap();
         let solution = contact.solve(Control::Load(0.5 * load)).unwrap();
         let height = |x: f64| hertz(x)[0];
-        let bodies = Bodies { height: &height, kappa: 1.0, places: places.clone() };
+        let bodies = Bodies { tail: TAIL[0], height: &height, kappa: 1.0, places: places.clone() };
         let faults = judge(&bodies, &solution, 0.5 * load);
         assert!(!faults.is_wrong(1e-11), "{faults:?}");
     }
@@ -958,7 +961,7 @@ fn the_judge_knows_closed_forms_and_what_is_wrong() {
     let (kappa, load) = (1.7, 0.3);
     let form = Quartic::under_load(0.3, 1.0, load, kappa).unwrap();
     let height = |x: f64| form.height(x);
-    let bodies = Bodies { height: &height, kappa, places: places.clone() };
+    let bodies = Bodies { tail: TAIL[0], height: &height, kappa, places: places.clone() };
     let series = |on: &Interval<f64>| {
         Series::of(*on, 128, &|x, p| {
             for (x, p) in x.iter().zip(p) {
@@ -990,7 +993,7 @@ fn the_judge_knows_closed_forms_and_what_is_wrong() {
                 let open = if at == inside { 0.0 } else { exact.gap(x).max(0.0) / kappa };
                 form.height(x) - (open + above) * (-0.5 * ((x - at) / 0.01).powi(2)).exp()
             };
-            let bodies = Bodies { height: &height, kappa, places: places.clone() };
+            let bodies = Bodies { tail: TAIL[0], height: &height, kappa, places: places.clone() };
             let faults = judge(&bodies, &solution, load);
             let is_seen = above > 0.0 || at == inside;
             assert_eq!(faults.is_wrong(WAVES), is_seen, "{at} {above}: {faults:?}");

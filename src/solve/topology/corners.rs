@@ -1,29 +1,36 @@
 //! Limits held at corners.
 //!
-//! A corner is an end of the bodies that is declared one, or a breakpoint inside them where the
-//! slope of the gap jumps up, by j. With a limit held at a corner z the pressure there is
-//! `P ≈ K'/√(distance)`, with `K' = K √(L/2)`. One rule holds for all:
+//! A corner is an end of the bodies that is declared one, or a breakpoint inside them beyond which
+//! the gap opens steeply: its slope jumps up, or rises over a short wall. With a limit held at a
+//! corner z the pressure there is `P ≈ K'/√(distance)`, with `K' = K √(L/2)`. One rule holds for
+//! all:
 //!
 //! | limit | next |
 //! |---|---|
 //! | free, next to a corner | held there |
-//! | held, K < 0 | let go inward |
-//! | held, K > 0, inside the bodies | put beyond the corner by `d = (π² K'/(2 κ j))²` |
+//! | held, K < 0 | let go inward, the lowest first |
+//! | held, K > 0, inside the bodies | put beyond the corner by d |
 //! | held, K > 0, d as small as panels resolve | held: d is the error of the limit |
 //!
-//! The last two are one contact: it ends where the jump makes up for the pressure of the held one,
-//! to first order in d/L. At an end of the bodies j is infinite.
+//! The last two are one contact. It ends where the slope s outside, above that at z, makes up for the
+//! pressure of the held one, to first order in d/L:
+//!
+//! ```text
+//! π² K'/κ = ∫ s(t) dt/√(d - t) from 0 to d,      for a jump j  d = (π² K'/(2 κ j))²
+//! ```
 
 use super::super::newton::Stop;
 use super::super::newton::several::put;
 use super::{Conditions, Given, Search};
+use crate::gap::Sampler;
+use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels;
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
-/// Largest distance of a limit from a corner that may hold it, as a share of the contact: that of
-/// limits by cells.
-const NEAR: f64 = 0.1;
+/// Largest distance of a limit from a corner that may hold it, as a share of the half-width: that
+/// of limits by cells.
+const NEAR: f64 = 0.2;
 
 /// Largest d, as a share of the half-width, by the pressure of a flat, for which a corner is tried:
 /// beyond, the limit finds its place by itself.
@@ -32,6 +39,18 @@ const SHARP: f64 = 0.1;
 /// Share of a contact's half-width by which a limit leaves a corner inward.
 const STEP_INWARD: f64 = 0.01;
 
+/// Steps to d, and the relative error of the pressure it makes up for that ends them: a start.
+const MAX_STEPS: usize = 40;
+const MAX_ERROR: f64 = 0.02;
+
+/// Limit at a corner that holds it.
+struct Held<T> {
+    contact: usize,
+    side: Side,
+    z: T,
+    strength: T,
+}
+
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Moves the contacts at hand until they bear the load, held at corners or let go; repeats as
     /// long as their panels miss narrow features.
@@ -39,20 +58,22 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         conditions: &Conditions<T>,
     ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        self.hold(conditions);
+        self.hold(conditions)?;
         loop {
             let mut found = match self.converge_once(conditions)? {
                 Ok(found) => found,
-                stopped => return Ok(stopped),
+                stopped => {
+                    if std::env::var("DBG").is_ok() { eprintln!("  DBG stopped {:?} held {:?} on {:?}", stopped.as_ref().err(), self.held, self.work.workspace.newton.on); }
+                    return Ok(stopped) },
             };
-            if !self.misses(&found)? && !self.let_go(&mut found) {
+            if !self.misses(&found)? && !self.lets_go(&mut found)? {
                 return Ok(Ok(found));
             }
         }
     }
 
     /// Holds the limits at hand that are at an end of the bodies, or next to a corner inside them.
-    fn hold(&mut self, conditions: &Conditions<T>) {
+    fn hold(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         self.held.clear();
         let on = &mut self.work.workspace.newton.on;
@@ -65,40 +86,105 @@ impl<T: Real> Search<'_, '_, '_, T> {
             }
         }
         if matches!(conditions.given, Given::HalfWidth(_)) {
-            return;
+            return Ok(());
         }
-        let (gap, load) = (&self.contact.gap, conditions.load() / conditions.kappa);
-        let all = on.iter().fold(T::zero(), |sum, on| sum + on.half_width());
-        for on in on {
+        let sum = |sum: T, on: &Interval<T>| sum + on.half_width();
+        let mean = conditions.load() / conditions.kappa / on.iter().fold(T::zero(), sum);
+        for i in 0..on.len() {
             for side in Side::BOTH {
-                let (x, half_width) = (on[side], on.half_width());
-                let near = T::of(2.0 * NEAR) * half_width;
-                let around = Interval { left: x - near, right: x + near };
-                // `F/(κ L)` of a contact with its share of the load.
-                let mean = load / all;
-                let is_sharp = |&z: &T| {
-                    let [jump, size] = gap.jump(z);
-                    let by_jump = T::frac_pi_2() * mean / jump;
-                    jump > T::epsilon().sqrt() * size
-                        && T::of(0.5) * by_jump * by_jump < T::of(SHARP)
-                };
-                let nearer = |one: T, other: T| {
-                    if (other - x).abs() < (one - x).abs() { other } else { one }
-                };
-                let room = Interval { left: on.left, right: on.right };
-                let fits = |&z: &T| match side {
-                    Side::Left => z < room.right,
-                    Side::Right => z > room.left,
-                };
-                let corners = gap.breakpoints(around).filter(fits).filter(is_sharp);
-                if let Some(z) = corners.reduce(nearer) {
-                    match side {
-                        Side::Left => on.left = z,
-                        Side::Right => on.right = z,
-                    }
+                let on = self.work.workspace.newton.on[i];
+                if let Some(z) = self.corner_next_to(on, side, mean)? {
+                    self.put_limit(i, side, z);
                     self.held.push((z, side));
                 }
             }
+        }
+        Ok(())
+    }
+
+    /// Returns the corner inside the bodies next to a limit of a contact, if there is one. `mean` is
+    /// `F/(κ L)`.
+    fn corner_next_to(
+        &mut self,
+        on: Interval<T>,
+        side: Side,
+        mean: T,
+    ) -> Result<Option<T>, ContactError<T>> {
+        let (range, near) = (self.contact.gap.range(), T::of(NEAR) * on.half_width());
+        let (x, outward) = (on[side], outward::<T>(side));
+        let around = Interval { left: (x - near).max(range[0]), right: (x + near).min(range[1]) };
+        let inside = on[side.other()];
+        let corners = self.contact.gap.breakpoints(around);
+        let mut corners: Vec<T> = corners.filter(|&z| outward * (z - inside) > T::zero()).collect();
+        if side == Side::Left {
+            corners.reverse();
+        }
+        for z in corners {
+            // Beyond a hollow corner the limit does not get.
+            let way = outward * (z - x);
+            if way > T::zero() && self.rise_beyond(x, side, &[way])?[0] < -least_rise(mean) {
+                break;
+            }
+            if self.is_sharp(z, side, mean, on.half_width())? {
+                return Ok(Some(z));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Tells whether a limit may end at a corner inside the bodies.
+    pub(super) fn has_corners(&mut self) -> Result<bool, ContactError<T>> {
+        let Ends { left, right } = self.contact.ends();
+        let mean = self.conditions.load() / self.contact.kappa / (right - left);
+        let on = Interval { left, right };
+        for z in self.contact.gap.breakpoints(on).collect::<Vec<_>>() {
+            for side in Side::BOTH {
+                if self.is_sharp(z, side, mean, T::of(0.5) * (right - left))? {
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    /// Tells whether the gap opens so steeply beyond a breakpoint that a limit next to it depends on
+    /// it. `mean` is `F/(κ L)`.
+    fn is_sharp(&mut self, z: T, side: Side, mean: T, half_width: T) -> Result<bool, ContactError<T>> {
+        Ok(self.steepest_beyond(z, side, half_width)? > least_rise(mean))
+    }
+
+    /// Returns the steepest slope, outward, up to a share of a half-width beyond a breakpoint, above
+    /// the slope inside: at the ends of the pieces there.
+    fn steepest_beyond(&mut self, z: T, side: Side, half_width: T) -> Result<T, ContactError<T>> {
+        let reach = T::of(SHARP) * half_width;
+        let at = z + outward::<T>(side) * reach;
+        let on = Interval { left: z.min(at), right: z.max(at) };
+        let ends = self.contact.gap.breakpoints(on).map(|x| (x - z).abs());
+        let away: Vec<T> = ends.chain([reach]).collect();
+        let rises = self.rise_beyond(z, side, &away)?;
+        Ok(rises.into_iter().fold(self.contact.gap.jump(z)[0], T::max))
+    }
+
+    /// Returns the slopes, outward, at some distances beyond a corner, above the slope inside.
+    fn rise_beyond(&mut self, z: T, side: Side, away: &[T]) -> Result<Vec<T>, ContactError<T>> {
+        let (gap, mut sampler) = (&self.contact.gap, Sampler::default());
+        let [from, to] = gap.range();
+        let outward: T = outward(side);
+        let inside = sampler.slope_from(gap, z, side.other())?;
+        let slopes = away.iter().map(|&away| {
+            let x = (z + outward * away).max(from).min(to);
+            Ok(outward * (sampler.slope_from(gap, x, side.other())? - inside))
+        });
+        let slopes = slopes.collect();
+        self.work.cost.heights += sampler.cost.evaluations;
+        slopes
+    }
+
+    fn put_limit(&mut self, contact: usize, side: Side, x: T) {
+        let on = &mut self.work.workspace.newton.on[contact];
+        match side {
+            Side::Left => on.left = x,
+            Side::Right => on.right = x,
         }
     }
 
@@ -108,44 +194,118 @@ impl<T: Real> Search<'_, '_, '_, T> {
         on.map(|on| Ends::from_fn(|side| self.held.contains(&(on[side], side)))).collect()
     }
 
-    /// Lets go of the corners that do not hold the contacts found, and tells whether there are any.
+    /// Lets go of corners that do not hold the contacts found, and tells whether there are any.
     /// Otherwise adds the error of the limits that stay held.
-    fn let_go(&mut self, found: &mut ContactState<T>) -> bool {
-        let (kappa, ends) = (self.contact.kappa, self.contact.ends());
-        let integrator = &*self.work.integrator;
-        let several = panels::several(integrator);
+    fn lets_go(&mut self, found: &mut ContactState<T>) -> Result<bool, ContactError<T>> {
+        if self.held.is_empty() {
+            return Ok(false);
+        }
+        let held = self.strengths(found);
+        let lower = |one: Held<T>, other: Held<T>| if other.strength < one.strength { other } else { one };
+        let lowest = held.into_iter().reduce(lower).filter(|held| held.strength < T::zero());
+        if let Some(Held { contact, side, z, .. }) = lowest {
+            let half_width = self.work.workspace.newton.on[contact].half_width();
+            self.let_go((contact, side, z), -T::of(STEP_INWARD) * half_width);
+            return Ok(true);
+        }
         let (mut changed, mut error) = (false, T::zero());
-        let held = self.held_limits();
-        for (i, on) in self.work.workspace.newton.on.iter_mut().enumerate() {
-            let half_width = on.half_width();
-            for side in Side::BOTH.into_iter().filter(|&side| held[i][side]) {
-                let (z, outward) = (on[side], if side == Side::Left { -T::one() } else { T::one() });
-                let strength = match several {
-                    Some(several) => kappa * several.strength(i, side),
-                    None => found.strengths[side],
-                };
-                let away = if strength < T::zero() {
-                    -T::of(STEP_INWARD)
-                } else if z == ends[side] {
-                    continue;
-                } else {
-                    let by_jump = T::pi() * T::pi() * strength / (kappa * self.contact.gap.jump(z)[0]);
-                    T::of(0.125) * by_jump * by_jump
-                };
-                if away >= T::zero() && away < T::epsilon().powf(T::of(2.0 / 3.0)) {
-                    error = error.max(away);
-                    continue;
-                }
-                let x = z + outward * away * half_width;
-                match side {
-                    Side::Left => on.left = x,
-                    Side::Right => on.right = x,
-                }
-                self.held.retain(|&held| held != (z, side));
+        let ends = self.contact.ends();
+        for Held { contact, side, z, strength } in self.strengths(found) {
+            if z == ends[side] {
+                continue;
+            }
+            let half_width = self.work.workspace.newton.on[contact].half_width();
+            let d = self.beyond(z, side, strength, half_width)?;
+            let least = T::epsilon().powf(T::of(2.0 / 3.0)) * half_width;
+            if d > least.max(T::of(64.0) * T::epsilon() * z.abs()) {
+                self.let_go((contact, side, z), d);
                 changed = true;
+            } else {
+                error = error.max(d / half_width);
             }
         }
         found.error = found.error.map(|known| known.max(error));
-        changed
+        Ok(changed)
     }
+
+    /// Puts a held limit at a distance beyond its corner.
+    fn let_go(&mut self, (contact, side, z): (usize, Side, T), away: T) {
+        if std::env::var("DBG").is_ok() { eprintln!("  DBG let go {z:?} {side:?} by {away:?}"); }
+        self.held.retain(|&held| held != (z, side));
+        self.put_limit(contact, side, z + outward::<T>(side) * away);
+    }
+
+    /// Lists the limits that are held, with the strengths of their singularities.
+    fn strengths(&self, found: &ContactState<T>) -> Vec<Held<T>> {
+        let (on, held) = (&self.work.workspace.newton.on, self.held_limits());
+        let several = panels::several(self.work.integrator);
+        let limits = (0..on.len()).flat_map(|i| Side::BOTH.map(|side| (i, side)));
+        let limits = limits.filter(|&(i, side)| held[i][side]);
+        limits
+            .map(|(contact, side)| {
+                let of_several = several.map(|several| self.contact.kappa * several.strength(contact, side));
+                let strength = of_several.unwrap_or(found.strengths[side]);
+                Held { contact, side, z: on[contact][side], strength }
+            })
+            .collect()
+    }
+
+    /// Returns the distance d beyond a corner at which the contact ends, given the strength with the
+    /// limit held there.
+    fn beyond(&mut self, z: T, side: Side, strength: T, half_width: T) -> Result<T, ContactError<T>> {
+        let rule = GaussLegendre::coarsest();
+        let half = T::of(0.5);
+        let due = T::pi() * T::pi() * strength * (half * half_width).sqrt() / self.contact.kappa;
+        // In u = √(1 - t/d) the integral is 2 √d ∫ s du.
+        let nodes: Vec<[T; 2]> = (0..rule.n)
+            .map(|i| [T::of(0.5 * (1.0 + rule.nodes[i])), T::of(rule.weights[i])])
+            .collect();
+        let steepest = self.steepest_beyond(z, side, half_width)?;
+        let mut share_at = |root: T| -> Result<T, ContactError<T>> {
+            let away: Vec<T> = nodes.iter().map(|&[u, _]| root * root * (T::one() - u * u)).collect();
+            let rises = self.rise_beyond(z, side, &away)?;
+            let both = rises.iter().zip(&nodes);
+            Ok(both.fold(T::zero(), |sum, (&rise, &[_, weight])| sum + weight * rise) * root / due)
+        };
+        let most = (half * half_width).sqrt();
+        // No wall is steeper: d is at least as large.
+        let mut low = (due / (steepest + steepest)).min(most);
+        let mut high = low;
+        let mut best = [T::zero(), low];
+        for _ in 0..MAX_STEPS {
+            let share = share_at(high)?;
+            if share > best[0] {
+                best = [share, high];
+            }
+            if (share - T::one()).abs() <= T::of(MAX_ERROR) {
+                return Ok(high * high);
+            }
+            if share > T::one() {
+                break;
+            }
+            if high >= most { return Ok(best[1] * best[1]); }
+            low = high;
+            high = (high + high).min(most);
+        }
+        if best[0] < T::one() { return Ok(best[1] * best[1]); }
+        for _ in 0..MAX_STEPS {
+            let root = (low * high).sqrt();
+            let share = share_at(root)?;
+            if (share - T::one()).abs() <= T::of(MAX_ERROR) {
+                return Ok(root * root);
+            }
+            if share < T::one() { low = root } else { high = root }
+        }
+        Ok(low * high)
+    }
+}
+
+/// Returns the direction of x out of a contact.
+fn outward<T: Real>(side: Side) -> T {
+    if side == Side::Left { -T::one() } else { T::one() }
+}
+
+/// Returns the least rise of the slope at a sharp corner: for a flat `d/L = (π F/(2 κ L j))²/2`.
+fn least_rise<T: Real>(mean: T) -> T {
+    T::frac_pi_2() * mean / T::of(2.0 * SHARP).sqrt()
 }

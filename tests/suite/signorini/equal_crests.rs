@@ -1,7 +1,7 @@
 //! Rollers of one size side by side, under a flat: all of them bear the load. Joined pieces meet
 //! within rounding or further off, and crests are equal to the last bit or nearly.
 
-use super::{Bodies, Dice, Tally, WAVES, scenes};
+use super::{Bodies, Dice, TAIL, Tally, WAVES, scenes};
 use crate::common::{Profile, join};
 use linecontact::profile::{Ellipse, Line, Parabola, Placed, Placement};
 use linecontact::{
@@ -99,7 +99,7 @@ fn equal_rollers_share_the_load() {
         let mut places: Vec<f64> = (0..=2000).map(share).collect();
         places.extend(row.crests.iter().map(|crest| crest[0]));
         places.sort_by(f64::total_cmp);
-        let bodies = Bodies { height: &height, kappa: 1.0, places };
+        let bodies = Bodies { tail: TAIL[0], height: &height, kappa: 1.0, places };
         // Bodies that are too short are refused at once.
         let wide = || Ok(contact.solve(Control::Load(row.load))?.intervals().to_vec());
         tally.take(&format!("{seed} {row:?}"), &contact, &wide, &bodies, row.load, WAVES);

@@ -1,0 +1,251 @@
+//! Lands and rollers with grooves, chamfers, scratches, dimples and keyways: contacts that end at
+//! corners inside the bodies, or next to them.
+
+use super::{Bodies, Dice, Tally, scenes};
+use crate::common::{Profile, join};
+use linecontact::{Contact, Control, Curve, CurvePoint, Edge, Flat};
+use std::f64::consts::PI;
+
+/// Allowed error of the potential as a share of the load: next to a corner the series of the judge
+/// converges slowly.
+const ALLOWED: f64 = 5e-3;
+
+/// Share of a wall that a fillet rounds.
+const FILLET: f64 = 0.2;
+
+/// Form of a wall.
+#[derive(Clone, Copy, Debug)]
+enum Wall {
+    Line,
+    Arc,
+    /// Rounded towards the land.
+    Fillet,
+}
+
+/// Part of the body below its land: from a corner over a wall to the bottom.
+#[derive(Clone, Copy, Debug)]
+struct Fall {
+    wall: Wall,
+    /// Place of the corner, and of the end of the wall.
+    x: [f64; 2],
+    depth: f64,
+}
+
+impl Fall {
+    /// Returns depth and slope at a share of the wall, both as shares of those of a line.
+    fn share(&self, s: f64) -> [f64; 2] {
+        match self.wall {
+            Wall::Line => [s, 1.0],
+            Wall::Arc => [s * (2.0 - s), 2.0 - 2.0 * s],
+            Wall::Fillet if s < FILLET => [0.5 * s * s / FILLET / (1.0 - 0.5 * FILLET), s / FILLET / (1.0 - 0.5 * FILLET)],
+            Wall::Fillet => [(s - 0.5 * FILLET) / (1.0 - 0.5 * FILLET), 1.0 / (1.0 - 0.5 * FILLET)],
+        }
+    }
+
+    /// Returns the point at a share of the wall and its derivatives.
+    fn at(&self, s: f64) -> CurvePoint<f64> {
+        let ([from, to], [y, dy]) = (self.x, self.share(s));
+        // From the nearer end.
+        let x = if s < 0.5 { from + s * (to - from) } else { to - (1.0 - s) * (to - from) };
+        CurvePoint { x, y: self.depth * y, dx: to - from, dy: self.depth * dy }
+    }
+}
+
+#[derive(Debug)]
+struct Scene {
+    half: f64,
+    /// Radius of a roller; a land without it.
+    radius: Option<f64>,
+    /// Pairs of falls: walls of grooves, from left to right.
+    grooves: Vec<[Fall; 2]>,
+    /// Chamfers at both ends, or none where the body ends at a corner.
+    chamfers: [Option<Fall>; 2],
+    /// Corners may be let go.
+    may_part: bool,
+    load: f64,
+}
+
+impl Scene {
+    fn new(dice: &mut Dice) -> Self {
+        let radius = (dice.uniform() < 0.4).then(|| dice.power_of_ten(0.3, 2.0));
+        let count = if radius.is_some() { 1.0 } else { 0.0 };
+        let count = (count + (5.0 - count) * dice.uniform()) as usize;
+        let half = 2.0;
+        let mut fall = |dice: &mut Dice, x: f64, outward: f64, room: f64, depth: f64| {
+            let wall = [Wall::Line, Wall::Line, Wall::Arc, Wall::Fillet];
+            let wall = wall[(4.0 * dice.uniform()) as usize];
+            let steepest = if dice.uniform() < 0.5 { 0.5 } else { 9.0 };
+            let slope = dice.power_of_ten(-1.7, steepest);
+            let width = (depth / slope).min(room);
+            Fall { wall, x: [x, x + outward * width], depth }
+        };
+        let edges: Vec<f64> = {
+            let mut places: Vec<f64> = (0..2 * count).map(|_| dice.uniform()).collect();
+            places.sort_by(f64::total_cmp);
+            let apart = 0.04;
+            let room = 1.0 - apart * (2 * count + 1) as f64;
+            let place = |(i, s): (usize, &f64)| room * s + apart * (i + 1) as f64;
+            places.iter().enumerate().map(place).map(|s| half * (2.0 * s - 1.0)).collect()
+        };
+        let grooves = edges.chunks_exact(2).map(|ends| {
+            let depth = dice.power_of_ten(-3.0, -0.7);
+            // A share of half of the groove for each wall.
+            let room = 0.5 * (ends[1] - ends[0]) * if dice.uniform() < 0.3 { 1.0 } else { 0.9 };
+            let left = fall(dice, ends[0], 1.0, room, depth);
+            [left, fall(dice, ends[1], -1.0, room, depth)]
+        });
+        let grooves = grooves.collect();
+        let mut chamfer = |x: f64| {
+            let is_there = radius.is_none() && dice.uniform() < 0.5;
+            is_there.then(|| {
+                let mut fall = fall(dice, x, x.signum(), 1.0, 0.5);
+                // Arcs would turn level.
+                fall.wall = if matches!(fall.wall, Wall::Arc) { Wall::Line } else { fall.wall };
+                fall
+            })
+        };
+        let chamfers = [chamfer(-half), chamfer(half)];
+        let may_part = dice.uniform() < 0.5;
+        let load = dice.power_of_ten(-5.0, -1.7);
+        Self { half, radius, grooves, chamfers, may_part, load }
+    }
+
+    /// Returns the falls, each with its span.
+    fn falls(&self) -> impl Iterator<Item = &Fall> {
+        self.grooves.iter().flatten().chain(self.chamfers.iter().flatten())
+    }
+
+    /// Returns the spans between breakpoints, from left to right: each with its wall, and the shares
+    /// of the wall from left to right; or with a depth.
+    fn spans(&self) -> Vec<([f64; 2], Result<(Fall, [f64; 2]), f64>)> {
+        let mut all = Vec::new();
+        let mut wall = |fall: &Fall| {
+            let ends = match fall.wall {
+                Wall::Fillet => vec![0.0, FILLET, 1.0],
+                _ => vec![0.0, 1.0],
+            };
+            for pair in ends.windows(2) {
+                let mut shares = [pair[0], pair[1]];
+                if fall.x[0] > fall.x[1] {
+                    shares.reverse();
+                }
+                all.push((shares.map(|s| fall.at(s).x), Ok((*fall, shares))));
+            }
+        };
+        self.falls().for_each(&mut wall);
+        let mut land = -self.half;
+        for [one, other] in &self.grooves {
+            all.push(([land, one.x[0]], Err(0.0)));
+            if one.x[1] < other.x[1] {
+                all.push(([one.x[1], other.x[1]], Err(one.depth)));
+            }
+            land = other.x[0];
+        }
+        all.push(([land, self.half], Err(0.0)));
+        all.sort_by(|one, other| one.0[0].total_cmp(&other.0[0]));
+        all
+    }
+
+    /// Returns the height of the gap.
+    fn height(&self, x: f64) -> f64 {
+        let base = self.radius.map_or(0.0, |radius| x * x / (2.0 * radius));
+        let fall = self.falls().find(|fall| (x - fall.x[0]) * (x - fall.x[1]) <= 0.0);
+        if let Some(fall) = fall {
+            return base + fall.depth * fall.share((x - fall.x[0]) / (fall.x[1] - fall.x[0]))[0];
+        }
+        let bottom = self.grooves.iter().find(|[one, other]| x > one.x[1] && x < other.x[1]);
+        base + bottom.map_or(0.0, |groove| groove[0].depth)
+    }
+
+    fn body(&self) -> Profile {
+        let radius = self.radius;
+        let piece = |(ends, wall): ([f64; 2], Result<(Fall, [f64; 2]), f64>)| -> Profile {
+            let on = move |mut point: CurvePoint<f64>| {
+                if let Some(radius) = radius {
+                    point.y += point.x * point.x / (2.0 * radius);
+                    point.dy += point.x / radius * point.dx;
+                }
+                point
+            };
+            match wall {
+                Ok((fall, shares)) => {
+                    let domain = [shares[0].min(shares[1]), shares[0].max(shares[1])];
+                    Box::new(Curve::new(domain, move |s: f64| on(fall.at(s))))
+                }
+                Err(depth) => Box::new(Curve::new(ends, move |x: f64| {
+                    on(CurvePoint { x, y: depth, dx: 1.0, dy: 0.0 })
+                })),
+            }
+        };
+        join(self.spans().into_iter().map(piece).collect())
+    }
+
+    fn edges(&self) -> [Edge<f64>; 2] {
+        [(0, -self.half), (1, self.half)].map(|(i, x)| match self.chamfers[i] {
+            Some(_) => Edge::Free,
+            None if self.radius.is_some() || self.may_part => Edge::FreeUntil(x),
+            None => Edge::Fixed(x),
+        })
+    }
+}
+
+#[test]
+fn contacts_end_at_corners_inside_the_bodies() {
+    let mut tally = Tally::default();
+    for seed in scenes(100) {
+        let scene = Scene::new(&mut Dice::new(seed));
+        let body = scene.body();
+        let [left, right] = scene.edges();
+        let contact = Contact::new(&Flat, &*body).unwrap().kappa(1.0).edges(left, right);
+        let height = |x: f64| scene.height(x);
+        let mut places = Vec::new();
+        for ([from, to], _) in scene.spans() {
+            let count = (((to - from) * 100.0) as usize).max(8);
+            let share = |i: usize| i as f64 / count as f64;
+            places.extend((0..=count).map(|i| (1.0 - share(i)) * from + share(i) * to));
+        }
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        let bodies = Bodies { tail: 1e-6, height: &height, kappa: 1.0, places };
+        let wide = || Ok(contact.solve(Control::Load(scene.load))?.intervals().to_vec());
+        tally.take(&format!("{seed} {scene:?}"), &contact, &wide, &bodies, scene.load, ALLOWED);
+    }
+    tally.finish();
+}
+
+/// `P = (F/π) |x|/√((x²-1)(4-x²))` between walls that are nearly upright.
+#[test]
+fn two_lands_bear_like_two_flat_punches() {
+    for slope in [1e9, 1e3, 1.0, 0.06] {
+        let (depth, load) = (0.05, 1e-3 * PI);
+        let width = depth / slope;
+        let wall = |x: f64, outward: f64| Fall { wall: Wall::Line, x: [x, x + outward * width], depth };
+        let scene = Scene {
+            half: 2.0,
+            radius: None,
+            grooves: vec![[wall(-1.0, 1.0), wall(1.0, -1.0)]],
+            chamfers: [None; 2],
+            may_part: false,
+            load,
+        };
+        let body = scene.body();
+        let [left, right] = scene.edges();
+        let contact = Contact::new(&Flat, &*body).unwrap().kappa(1.0).edges(left, right);
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        let contacts = solution.contacts().unwrap();
+        assert_eq!(contacts.len(), 2);
+        // d = (π² K'/(2κj))², with K' = F/(π √6) of the held lands.
+        let d = (PI * load / (2.0 * slope)).powi(2) / 6.0;
+        let allowed = 1e-12 + 2.0 * d;
+        for one in &contacts {
+            assert!((one.load / (0.5 * load) - 1.0).abs() < 1e-9, "{slope}: {}", one.load);
+            let end = one.interval.left.abs().min(one.interval.right.abs());
+            assert!((1.0 - end - d).abs() <= 0.02 * d + 1e-10, "{slope}: {end} for {d}");
+        }
+        for x in [1.3, 1.6f64, 1.9] {
+            let due = load / PI * x / ((x * x - 1.0) * (4.0 - x * x)).sqrt();
+            let got = solution.pressure().unwrap().at(x).unwrap();
+            assert!((got / due - 1.0).abs() < allowed, "{slope}: {got} for {due}");
+        }
+    }
+}
