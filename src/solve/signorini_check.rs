@@ -101,7 +101,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let mut pressures = [T::zero(); POINTS];
             self.pressures(&x, &mut pressures)?;
             let free = panels::free_of(self.integrator, i, self.found.free);
-            fields.each.push(ExteriorField::new(on, free, &x, &pressures));
+            let mut field = ExteriorField::new(on, free, &x, &pressures);
+            field.doubt = field.doubt.max(self.unseen(on, POINTS)?);
+            fields.each.push(field);
         }
         Ok(())
     }
@@ -133,10 +135,30 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 let mut pressures = vec![T::zero(); count];
                 self.pressures(&x, &mut pressures)?;
                 field.refine(&x, pressures);
+                field.doubt = field.doubt.max(self.unseen(field.on, count)?);
             }
         }
         fields.gather(self.gap.range());
         Ok(is_finer)
+    }
+
+    /// Returns about the load that a number of places miss beyond corners next to the limits of a
+    /// contact: between a corner and a limit the pressure falls from that of a held one.
+    fn unseen(&self, on: Interval<T>, count: usize) -> Result<T, ContactError<T>> {
+        let step = T::pi() / T::count(count);
+        // Place i lies (2 i + 1)² times as far from the limit as the first.
+        let fourth = T::of(49.0 / 8.0) * step * step * on.half_width();
+        let corners = [self.gap.breakpoint_after(on.left), self.gap.breakpoint_before(on.right)];
+        let mut unseen = T::zero();
+        for (corner, side) in corners.into_iter().zip(Side::BOTH) {
+            let away = corner.map(|corner| corner - on[side]).filter(|away| away.abs() < fourth);
+            if let Some(away) = away {
+                let mut pressure = [T::zero()];
+                self.pressures(&[on[side] + (away + away)], &mut pressure)?;
+                unseen += T::of(4.0) * away.abs() * pressure[0].abs();
+            }
+        }
+        Ok(unseen)
     }
 
     /// Finds tension inside the contacts: returns the place and the pressure of the largest one,

@@ -9,7 +9,7 @@
 //! |---|---|
 //! | free, next to a corner | held there |
 //! | held, K < 0 | let go inward, the lowest first |
-//! | held, K > 0, inside the bodies | put beyond the corner by d |
+//! | held, K > 0, inside the bodies | put beyond the corner by d, the furthest first |
 //! | held, K > 0, d as small as panels resolve | held: d is the error of the limit |
 //!
 //! The last two are one contact. It ends where the slope s outside, above that at z, makes up for the
@@ -38,6 +38,12 @@ const SHARP: f64 = 0.1;
 
 /// Share of a contact's half-width by which a limit leaves a corner inward.
 const STEP_INWARD: f64 = 0.01;
+
+/// Largest share of a wall on which a contact may end, for a start.
+const LEAST_OPEN: f64 = 0.9;
+
+/// Least ratio of shares d/L that are let go together.
+const TOGETHER: f64 = 0.01;
 
 /// Steps to d, and the relative error of the pressure it makes up for that ends them: a start.
 const MAX_STEPS: usize = 40;
@@ -165,6 +171,15 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(rises.into_iter().fold(self.contact.gap.jump(z)[0], T::max))
     }
 
+    /// Returns the length of the wall beyond a corner, up to the next hollow corner, or `most`.
+    fn wall_beyond(&self, z: T, side: Side, most: T) -> T {
+        let at = z + outward::<T>(side) * most;
+        let gap = &self.contact.gap;
+        let hollow = gap.breakpoints(Interval { left: z.min(at), right: z.max(at) });
+        let hollow = hollow.filter(|&x| gap.jump(x)[0] < T::zero()).map(|x| (x - z).abs());
+        hollow.reduce(T::min).map_or(most, |length| T::of(LEAST_OPEN) * length)
+    }
+
     /// Returns the slopes, outward, at some distances beyond a corner, above the slope inside.
     fn rise_beyond(&mut self, z: T, side: Side, away: &[T]) -> Result<Vec<T>, ContactError<T>> {
         let (gap, mut sampler) = (&self.contact.gap, Sampler::default());
@@ -208,8 +223,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
             self.let_go((contact, side, z), -T::of(STEP_INWARD) * half_width);
             return Ok(true);
         }
-        let (mut changed, mut error) = (false, T::zero());
         let ends = self.contact.ends();
+        let mut beyond = Vec::new();
+        let mut error = T::zero();
         for Held { contact, side, z, strength } in self.strengths(found) {
             if z == ends[side] {
                 continue;
@@ -218,14 +234,20 @@ impl<T: Real> Search<'_, '_, '_, T> {
             let d = self.beyond(z, side, strength, half_width)?;
             let least = T::epsilon().powf(T::of(2.0 / 3.0)) * half_width;
             if d > least.max(T::of(64.0) * T::epsilon() * z.abs()) {
-                self.let_go((contact, side, z), d);
-                changed = true;
+                beyond.push(((contact, side, z), d, d / half_width));
             } else {
                 error = error.max(d / half_width);
             }
         }
+        // Each changes the pressure at the others by its share of the width.
+        let most = beyond.iter().fold(T::zero(), |most, &(.., share)| most.max(share));
+        for &(limit, d, share) in &beyond {
+            if share >= T::of(TOGETHER) * most {
+                self.let_go(limit, d);
+            }
+        }
         found.error = found.error.map(|known| known.max(error));
-        Ok(changed)
+        Ok(!beyond.is_empty())
     }
 
     /// Puts a held limit at a distance beyond its corner.
@@ -261,13 +283,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
             .map(|i| [T::of(0.5 * (1.0 + rule.nodes[i])), T::of(rule.weights[i])])
             .collect();
         let steepest = self.steepest_beyond(z, side, half_width)?;
+        let most = self.wall_beyond(z, side, half * half_width).sqrt();
         let mut share_at = |root: T| -> Result<T, ContactError<T>> {
             let away: Vec<T> = nodes.iter().map(|&[u, _]| root * root * (T::one() - u * u)).collect();
             let rises = self.rise_beyond(z, side, &away)?;
             let both = rises.iter().zip(&nodes);
             Ok(both.fold(T::zero(), |sum, (&rise, &[_, weight])| sum + weight * rise) * root / due)
         };
-        let most = (half * half_width).sqrt();
         // No wall is steeper: d is at least as large.
         let mut low = (due / (steepest + steepest)).min(most);
         let mut high = low;
