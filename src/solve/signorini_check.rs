@@ -155,7 +155,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             if let Some(away) = away {
                 let mut pressure = [T::zero()];
                 self.pressures(&[on[side] + (away + away)], &mut pressure)?;
-                unseen += T::of(4.0) * away.abs() * pressure[0].abs();
+                // About the load over twice the distance, times the logarithm of the spacing over it.
+                unseen += T::of(16.0) * away.abs() * pressure[0].abs();
             }
         }
         Ok(unseen)
