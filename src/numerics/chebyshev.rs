@@ -170,47 +170,54 @@ pub(crate) fn evaluate<const W: usize, T: Real>(
     coefficients: &[T],
     s: &[T; W],
 ) -> ([T; W], [T; W]) {
-    let zero = [T::zero(); W];
-    let (mut b1, mut b2, mut d1, mut d2) = (zero, zero, zero, zero);
     let twice: [T; W] = std::array::from_fn(|i| s[i] + s[i]);
-    for &a in coefficients[1..].iter().rev() {
+    let zero = [[T::zero(); W]; 2];
+    // Half the derivatives need no doubled values.
+    let [[b1, d1], [b2, d2]] = clenshaw(&coefficients[1..], zero, |[b1, d1], [b2, d2], a| {
         for i in 0..W {
-            let b = fma(twice[i], b1[i], a - b2[i]);
-            let d = fma(twice[i], d1[i], b1[i] + b1[i] - d2[i]);
-            (b2[i], b1[i]) = (b1[i], b);
-            (d2[i], d1[i]) = (d1[i], d);
+            b2[i] = fma(twice[i], b1[i], a - b2[i]);
+            d2[i] = fma(twice[i], d1[i], b1[i] - d2[i]);
         }
-    }
+    });
     let value = std::array::from_fn(|i| fma(s[i], b1[i], coefficients[0] - b2[i]));
-    let slope = std::array::from_fn(|i| fma(s[i], d1[i], b1[i] - d2[i]));
+    let slope = std::array::from_fn(|i| fma(twice[i], d1[i], b1[i] - (d2[i] + d2[i])));
     (value, slope)
+}
+
+/// Goes from the last coefficient to the first: each step replaces the last but one number of the
+/// recurrence by the next. Returns the last two, the later one first.
+#[inline(always)]
+fn clenshaw<T: Copy, B: Copy>(coefficients: &[T], zero: B, step: impl Fn(&B, &mut B, T)) -> [B; 2] {
+    let (mut b1, mut b2) = (zero, zero);
+    let (pairs, last) = coefficients.as_chunks();
+    for &a in last {
+        step(&b2, &mut b1, a);
+    }
+    // Two steps at a time copy no number.
+    for &[a, after] in pairs.iter().rev() {
+        step(&b1, &mut b2, after);
+        step(&b2, &mut b1, a);
+    }
+    [b1, b2]
 }
 
 /// Returns the polynomial at W points.
 #[inline(always)]
 pub(crate) fn values<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [T; W] {
-    let [b1, b2] = recurrence(&coefficients[1..], s);
+    let [b1, b2] = second_kind(&coefficients[1..], s);
     std::array::from_fn(|i| fma(s[i], b1[i], coefficients[0] - b2[i]))
 }
 
-/// Returns `Σ c_k U_k` at W points, with the Chebyshev polynomials `U_k` of the second kind.
+/// Returns `Σ c_k U_k` and `Σ c_{k+1} U_k` at W points, with the Chebyshev polynomials `U_k` of the
+/// second kind.
 #[inline(always)]
-pub(crate) fn second_kind<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [T; W] {
-    recurrence(coefficients, s)[0]
-}
-
-/// Returns the last two numbers of Clenshaw's recurrence, the later one first.
-#[inline(always)]
-fn recurrence<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [[T; W]; 2] {
+pub(crate) fn second_kind<const W: usize, T: Real>(coefficients: &[T], s: &[T; W]) -> [[T; W]; 2] {
     let twice: [T; W] = std::array::from_fn(|i| s[i] + s[i]);
-    let (mut b1, mut b2) = ([T::zero(); W], [T::zero(); W]);
-    for &a in coefficients.iter().rev() {
+    clenshaw(coefficients, [T::zero(); W], |b1, b2, a| {
         for i in 0..W {
-            let b = fma(twice[i], b1[i], a - b2[i]);
-            (b2[i], b1[i]) = (b1[i], b);
+            b2[i] = fma(twice[i], b1[i], a - b2[i]);
         }
-    }
-    [b1, b2]
+    })
 }
 
 /// Returns the polynomial at one point.

@@ -215,7 +215,7 @@ impl<T: Real> HilbertTransform<T> {
         }
         let share = T::one() / (self.on.right - self.on.left);
         let z: [T; LANES] = std::array::from_fn(|i| (edges.left[i] - edges.right[i]) * share);
-        let smooth = second_kind(&self.smooth[..self.terms], &z);
+        let [smooth, _] = second_kind(&self.smooth[..self.terms], &z);
         let mut sum: [T; LANES] = std::array::from_fn(|i| edges.root[i] * smooth[i]);
         if self.changes.is_empty() {
             return sum;
