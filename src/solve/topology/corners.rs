@@ -82,6 +82,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn hold(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         self.held.clear();
+        self.beyond.clear();
         let on = &mut self.work.workspace.newton.on;
         let hull = Interval { left: on[0].left, right: on[on.len() - 1].right };
         let reaches = Ends { left: hull.left <= ends.left, right: hull.right >= ends.right };
@@ -209,6 +210,19 @@ impl<T: Real> Search<'_, '_, '_, T> {
         on.map(|on| Ends::from_fn(|side| self.held.contains(&(on[side], side)))).collect()
     }
 
+    /// Returns the corners beyond which limits of each contact at hand were put.
+    pub(super) fn corners_beyond(&self) -> Vec<Ends<Option<T>>> {
+        let corner = |on: &Interval<T>, side: Side| {
+            let is_near = |&&(z, at): &&(T, Side)| {
+                let distance = outward::<T>(side) * (on[side] - z);
+                at == side && distance > T::zero() && distance < on.half_width()
+            };
+            self.beyond.iter().find(is_near).map(|&(z, _)| z)
+        };
+        let on = self.work.workspace.newton.on.iter();
+        on.map(|on| Ends::from_fn(|side| corner(on, side))).collect()
+    }
+
     /// Lets go of corners that do not hold the contacts found, and tells whether there are any.
     /// Otherwise adds the error of the limits that stay held.
     fn lets_go(&mut self, found: &mut ContactState<T>) -> Result<bool, ContactError<T>> {
@@ -254,6 +268,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn let_go(&mut self, (contact, side, z): (usize, Side, T), away: T) {
         if std::env::var("DBG").is_ok() { eprintln!("  DBG let go {z:?} {side:?} by {away:?}"); }
         self.held.retain(|&held| held != (z, side));
+        if away > T::zero() {
+            self.beyond.push((z, side));
+        }
         self.put_limit(contact, side, z + outward::<T>(side) * away);
     }
 

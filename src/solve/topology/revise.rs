@@ -250,10 +250,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if let (&[on], None) = (&self.work.workspace.newton.on[..], self.end) {
             return self.one_of_set(conditions, on, held[0]);
         }
+        let beyond = self.corners_beyond();
         let (contact, ends) = (self.contact, self.contact.ends());
         let Work { integrator, workspace, .. } = &mut *self.work;
         let newton = &mut workspace.newton;
         newton.held = held;
+        newton.beyond.clear();
+        newton.beyond.extend(beyond);
         if let Some(side) = self.end {
             put(&mut newton.on, side, ends[side]);
         }

@@ -74,6 +74,7 @@ impl<T: Real> NewtonSeveral<T> {
             // corner stays.
             let room = |limit: usize, beside: Option<Width>| match beside {
                 _ if !self.moves_freely(limit) => zero,
+                _ if let Some(distance) = self.distance_beyond(limit) => width.min(distance.abs()),
                 Some(beside) => width.min(self.width(beside)),
                 None => width,
             };
