@@ -13,9 +13,6 @@ use crate::{Interval, Real, Side};
 /// 3⁻³², and the eight of a trial 3⁻¹⁶.
 const MAX_GAUSS_SPAN: f64 = 2.0;
 
-/// Limit on the number of such spans: more than any gap and contact of finite widths have.
-const MAX_STRETCHES: usize = 1000;
-
 impl<T: Real> Several<T> {
     /// Sets the load, given as F/κ, and the residues at the poles of p.
     pub fn carry(&mut self, load: T, residues: &[T]) {
@@ -227,11 +224,17 @@ impl<T: Real> Several<T> {
         {
             // Half the gap.
             let last = T::of(2.0) * (width / (T::of(4.0) * on.half_width())).sqrt().asinh();
-            let is_enough = |&n: &usize| T::of(MAX_GAUSS_SPAN) * T::count(n) >= last;
-            let pieces = (1..MAX_STRETCHES).find(is_enough).unwrap_or(1);
-            let step = last / T::count(pieces);
-            for piece in 0..pieces {
-                let start = step * T::count(piece);
+            let side = if near == k { Side::Right } else { Side::Left };
+            // Beyond a corner as near as this, Φ has a singularity at ±i times its t.
+            let mut longest = match self.parts[near].wall(side) {
+                Some(wall) => T::of(2.0) * (wall / (T::of(4.0) * on.half_width())).sqrt().asinh(),
+                None => T::of(MAX_GAUSS_SPAN),
+            };
+            let mut start = T::zero();
+            while last - start > T::of(8.0) * T::epsilon() * last {
+                let rest = last - start;
+                let count = (rest / longest).ceil();
+                let step = if longest < T::of(MAX_GAUSS_SPAN) { rest.min(longest) } else { rest / count };
                 for (&node, &weight) in rule.nodes.iter().zip(&rule.weights).take(rule.n) {
                     let t = start + half * step * T::of(1.0 + node);
                     let sinh = (half * t).sinh();
@@ -246,6 +249,8 @@ impl<T: Real> Several<T> {
                     }
                     show(x, distances, value, self.weight.in_gap(k, x, distances), dx);
                 }
+                start += step;
+                longest = (start + start).max(longest).min(T::of(MAX_GAUSS_SPAN));
             }
         }
     }

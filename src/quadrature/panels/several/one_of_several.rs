@@ -39,6 +39,10 @@ const TRIAL_TOLERANCE: f64 = 2e-5;
 /// to rounding: its error there is u¹⁶.
 const FAR_DISTANCE: f64 = 4.0;
 
+/// Largest length of a wall, as a share of the half-width, and least share of its rise in that of
+/// the whole contact, in proportion to its length.
+const MAX_WALL: f64 = 0.1;
+
 /// Number of nodes at which the weight is computed together.
 const W: usize = 4;
 
@@ -239,6 +243,33 @@ impl<T: Real> OneOfSeveral<T> {
         let mut sum = NearFarSum::new();
         sum.set(&self.panels, self.on, Seen::Below);
         (self.on, sum)
+    }
+
+    /// Returns the length of the last piece of the bodies in the contact, at one end, if the gap is
+    /// much steeper there than further inside: the limit lies next to a corner.
+    pub fn wall(&self, side: Side) -> Option<T> {
+        let (on, panels) = (self.on, within(&self.panel_set.panels, self.on));
+        let [last, others] = match side {
+            Side::Left => panels.split_first().map(|(last, others)| [std::slice::from_ref(last), others]),
+            Side::Right => panels.split_last().map(|(last, others)| [std::slice::from_ref(last), others]),
+        }?;
+        let end = |panel: &Panel<T>| panel.x[usize::from(side == Side::Left)];
+        let wall = (on[side] - end(&last[0])).abs();
+        let half_width = on.half_width();
+        let value = |x: T| self.panel_set.slope(x).unwrap_or(T::zero());
+        let at_end = value(on[side]);
+        let all = (at_end - value(on.centre())).abs().max((at_end - value(on[side.other()])).abs());
+        let inward: &mut dyn Iterator<Item = &Panel<T>> = match side {
+            Side::Left => &mut others.iter(),
+            Side::Right => &mut others.iter().rev(),
+        };
+        let other_end = |panel: &Panel<T>| panel.x[usize::from(side == Side::Right)];
+        inward
+            .map(|panel| (on[side] - other_end(panel), at_end - panel.value(other_end(panel))))
+            .take_while(|(away, _)| away.abs() < T::of(MAX_WALL) * half_width)
+            .any(|(away, rise)| rise.abs() * T::of(MAX_WALL) * half_width > away.abs() * all)
+            .then_some(wall)
+            .filter(|&wall| wall > T::zero())
     }
 
     /// Returns V at one end of the contact, without its infinite part.
