@@ -174,7 +174,6 @@ impl<T: Real> NewtonSeveral<T> {
             if let Err(stop) = self.assemble(several, &turned, conditions)? {
                 return Ok(Err(stop));
             }
-            if std::env::var("DBG2").is_ok() { eprintln!("N on {:?}\n   step {:?} moves {:?}", self.on, self.step, self.moves); }
             self.shorten();
             if !self.step.iter().all(|step| step.is_finite()) {
                 break;

@@ -454,7 +454,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let allowed = self.allowed(height, at_edge) + T::of(8.0) * (rise - due).abs();
         let doubt = fields.doubt_in(from.room) / self.kappa;
         let is_open = gap >= -(allowed + doubt) || !is_sound;
-        if std::env::var("DBG").is_ok() { eprintln!("  DBG verified x {x:?} edge {:?} height {height:?} at_edge {at_edge:?} sampler edge {:?} pot {:?} gap {gap:?} doubt {doubt:?} n {:?}", from.edge, sampler.height(self.gap, self.gap.nearest(from.edge)), fields.potential(x) - from.taken, fields.each.iter().map(|f| f.coefficients().len()).collect::<Vec<_>>()); }
         Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
     }
 }

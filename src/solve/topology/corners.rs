@@ -69,7 +69,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
             let mut found = match self.converge_once(conditions)? {
                 Ok(found) => found,
                 stopped => {
-                    if std::env::var("DBG").is_ok() { eprintln!("  DBG stopped {:?} held {:?} on {:?}", stopped.as_ref().err(), self.held, self.work.workspace.newton.on); }
                     return Ok(stopped) },
             };
             if !self.misses(&found)? && !self.lets_go(&mut found)? {
@@ -266,7 +265,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Puts a held limit at a distance beyond its corner.
     fn let_go(&mut self, (contact, side, z): (usize, Side, T), away: T) {
-        if std::env::var("DBG").is_ok() { eprintln!("  DBG let go {z:?} {side:?} by {away:?}"); }
         self.held.retain(|&held| held != (z, side));
         if away > T::zero() {
             self.beyond.push((z, side));

@@ -76,7 +76,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 }
             }
             let trial = self.trial(start, &conditions, &mut fault);
-            if std::env::var("DBG").is_ok() { eprintln!("DBG trial {start:?} before {:?}\n  now {:?}\n  held {:?} {} fault {:?}", self.work.workspace.before, self.work.workspace.newton.on, self.held, match &trial { Ok((o, _)) => format!("{o:?}"), Err(e) => format!("{e}") }, fault.as_ref().map(|e| e.to_string().chars().take(90).collect::<String>())); }
             let next = match self.work.workspace.report.end(start, trial)? {
                 ControlFlow::Break(found) => return Ok(found),
                 ControlFlow::Continue(next) => next,
