@@ -51,9 +51,9 @@ pub struct Fit<T> {
     /// cubic through its four neighbours, in standard deviations. These are estimated from the
     /// median of all such distances, or from the 21 points around it if their median is larger.
     /// Default 10; `None` disables the check. It needs twelve points. The two outermost points have
-    /// neighbours on one side only: there it detects only errors several times as large. A corner
-    /// between two points, or an end that is nearly upright, looks like such an error. In a file 0
-    /// stands for `None`.
+    /// neighbours on one side only: there it detects only errors several times as large. A jump of
+    /// the curvature is no such error; a corner, an arc of fewer than three points or an end
+    /// that is nearly upright looks like one. In a file 0 stands for `None`.
     #[cfg_attr(feature = "serde", serde(with = "stored"))]
     pub outliers: Option<T>,
 }

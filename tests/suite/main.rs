@@ -59,6 +59,7 @@ mod narrow_features;
 mod nested_search;
 mod noise;
 mod oracle;
+mod outliers;
 mod overload;
 mod overload_several;
 mod own_curves;

@@ -15,6 +15,10 @@ const FEWEST: usize = 12;
 /// Standard deviation of a normal distribution, in units of the median of its absolute values.
 const BY_MEDIAN: f64 = 1.4826;
 
+/// Largest part of the distance of an outlier that it leaves unexplained in a row beside its own.
+/// A jump of the curvature leaves 0.67 of it or more; two outliers side by side, or a step, 0.33.
+const UNEXPLAINED: f64 = 0.35;
+
 /// Reason why points do not make a profile. Rows are counted from 1, as in a file with a point on
 /// each line.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -61,8 +65,9 @@ pub enum SplineError<T: Real> {
     #[error(
         "row {row}: y = {y} at x = {x}, where its neighbours suggest {expected}: {deviations} \
          standard deviations off. Remove the row, or set Fit::outliers to None if the body has a \
-         corner there",
-        y = six(*y), x = six(*x), expected = six(*expected), deviations = six(*deviations)
+         corner there, or its curvature changes from point to point",
+        y = apart(*y, &[*expected]), x = six(*x), expected = apart(*expected, &[*y]),
+        deviations = six(*deviations)
     )]
     Outlier {
         /// Row of the point, the one that is furthest off.
@@ -147,7 +152,9 @@ pub(super) fn check_outliers<T: Real>(points: &[[T; 2]], most: T) -> Result<(), 
     let mut worst: Option<(usize, T)> = None;
     for (i, &off) in all.iter().enumerate() {
         let far = off > floor && off > most * T::of(BY_MEDIAN) * everywhere;
-        if far && off > most * scale_at(i) && worst.is_none_or(|(_, worst)| off > worst) {
+        let is_worst =
+            far && off > most * scale_at(i) && worst.is_none_or(|(_, worst)| off > worst);
+        if is_worst && explains(points, i) {
             worst = Some((i, off));
         }
     }
@@ -157,6 +164,20 @@ pub(super) fn check_outliers<T: Real>(points: &[[T; 2]], most: T) -> Result<(), 
     let [x, y] = points[i];
     let (expected, _) = foretold(points, i);
     Err(SplineError::Outlier { row: i + 1, x, y, expected, deviations })
+}
+
+/// Returns true if an error of one point explains the distances in the three rows of five around
+/// it: at an outlier they alternate in sign. A jump of the curvature, between arcs of
+/// three points or more, is no outlier.
+fn explains<T: Real>(points: &[[T; 2]], i: usize) -> bool {
+    let first = i.clamp(3, points.len() - 4) - 3;
+    let near = &points[first..first + 7];
+    let alone: Vec<_> =
+        (0..7).map(|j| [near[j][0], T::count(usize::from(first + j == i))]).collect();
+    let own = (i - first).clamp(2, 4);
+    let error = deviation(near, own) / deviation(&alone, own);
+    let left = |row| (deviation(near, row) - error * deviation(&alone, row)).abs();
+    (2..5).all(|row| left(row) <= T::of(UNEXPLAINED) * deviation(near, own).abs())
 }
 
 /// Returns the faulty point near one that is off: the point without which the others are smoothest.
