@@ -335,9 +335,11 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
     ) -> Result<CurveSample<T>, ContactError<T>> {
         let (target, body) = (self.targets[i], self.body);
         let [lo, hi] = if self.rises { [left, right] } else { [right, left] };
-        if lo.k >= hi.k {
-            // The two known points are the same.
-            return Ok(left);
+        // Between joints of both bodies within rounding, a target may lie beyond its piece; of
+        // points within noise the order may be wrong. No search comes nearer.
+        if lo.k >= hi.k || target <= left.x || target >= right.x {
+            let nearer = if target - left.x < right.x - target { left } else { right };
+            return self.check(i, &nearer).map(|()| nearer);
         }
         let bracket = Bracket::new(lo.k, hi.k).values(lo.x - target, hi.x - target);
         let bracket = bracket.guess(newton(left, right, target));

@@ -16,6 +16,7 @@
 
 mod equal_crests;
 mod inner_corners;
+mod right_answers;
 
 use crate::random_scenes::Dice;
 use linecontact::profile::{Fit, Spline};
