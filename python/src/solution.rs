@@ -62,7 +62,7 @@ type Region = (Pair, f64, Pair, Option<Pair>, f64, Option<f64>);
 type Row = (Vec<Pair>, f64, Vec<f64>, f64, f64, f64, Option<Pair>, Option<f64>);
 
 /// Least ratio of pressures, least gap, spacing and cost.
-type Proof = (Option<Pair>, Option<Pair>, f64, Counts);
+type Proof = (Option<Pair>, Option<Pair>, f64, Counts, bool);
 
 /// Abscissa x, depth and value.
 type Largest = (f64, f64, f64);
@@ -309,7 +309,7 @@ impl Solution {
     fn certify(&self, py: Python<'_>) -> PyResult<Proof> {
         let proof = call::library(py, || self.0.certify())?;
         let [pressure, gap] = [proof.pressure, proof.gap].map(|found| found.map(extremum));
-        Ok((pressure, gap, proof.spacing, counts(proof.cost)))
+        Ok((pressure, gap, proof.spacing, counts(proof.cost), proof.is_proved()))
     }
 
     fn summary(&self, py: Python<'_>) -> PyResult<Row> {

@@ -104,6 +104,11 @@ def test_the_sheet_is_that_of_hertz(run: Run) -> None:
     assert "E = 210000 MPa, Poisson's ratio 0.3" in text and "against yield at 600 MPa" in text
 
 
+def test_the_sheet_of_a_certified_contact_says_that_it_is_proved(run: Run) -> None:
+    _, text, _ = run(roller({"load": 500.0}, certified=True))
+    assert re.search(r"^checked +no tension in the contact, no overlap beside it: proved$", text, re.MULTILINE)
+
+
 @pytest.mark.parametrize("ratio", [0.0, 0.1, 0.2, 0.24, 0.26, 0.3, 0.5])
 def test_tresca_is_the_largest_difference_of_principal_stresses(ratio: float) -> None:
     found = sheet.largest_tresca(HERTZ, ratio)

@@ -128,6 +128,19 @@ def test_an_exception_comes_out_as_it_is(error: BaseException) -> None:
     assert lc.solve(FLAT, BODY, kappa=1.0, load=0.02).is_checked
 
 
+def test_a_certificate_has_values_and_tells_whether_it_is_proved() -> None:
+    feet = lc.Curve((-2.0, 2.0), lambda k: (k, k**4 - 2 * k**2, np.ones_like(k), 4 * k**3 - 4 * k))
+    certificate = lc.solve(FLAT, feet, kappa=1.0, load=0.5).certify()
+    assert certificate.is_proved
+    assert certificate.pressure is not None and certificate.pressure.value > 0.0
+    # P is proportional to (L²/2 - 0.1 + x²) sqrt(L² - x²), at x = 0 less than zero by rounding.
+    hollow = lc.Curve((-1.0, 1.0), lambda k: (k, k**4 / 4 - 0.05 * k**2, np.ones_like(k), k**3 - 0.1 * k))
+    touches = lc.solve(FLAT, hollow, kappa=1.0, half_width=math.sqrt(0.2 - 2e-14), single_interval=True)
+    certificate = touches.certify()
+    assert not certificate.is_proved
+    assert certificate.pressure is not None and certificate.pressure.value <= 0.0
+
+
 def test_a_curve_may_solve_a_contact_itself() -> None:
     inner = lc.Contact(FLAT, BODY, kappa=1.0)
 

@@ -38,10 +38,10 @@ const POINTS: usize = 512;
 /// Proof that a solution is a contact.
 ///
 /// It proves `P ≥ 0` in the whole contact and a gap `≥ 0` from its edges to the ends of the bodies,
-/// or to the next of several contacts. The proof holds up to rounding, and as far as the curves are
-/// known from the points at which they are evaluated: eight or more in each `spacing`, and more
-/// near the edges, at breakpoints, and wherever the slope of the gap is not a polynomial of low
-/// degree.
+/// or to the next of several contacts; [`is_proved`](Self::is_proved) tells whether up to rounding.
+/// The proof holds as far as the curves are known from the points at which they are evaluated:
+/// eight or more in each `spacing`, and more near the edges, at breakpoints, and wherever the slope
+/// of the gap is not a polynomial of low degree.
 ///
 /// ```
 /// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
@@ -62,12 +62,13 @@ const POINTS: usize = 512;
 pub struct Certificate<T> {
     /// Least ratio of `P` to the mean pressure times `sqrt((x + b)(a - x))/L`, 4/π for a parabola;
     /// at an edge that is not free the root of its distance is in the denominator. Each of several
-    /// contacts has its own limits and load. `None` if the slope of the gap rises throughout a
-    /// single contact, which implies `P > 0`, and between adhesive edges.
+    /// contacts has its own limits and load. It is a value, no doubt: `None` where none is needed,
+    /// as the slope of the gap rises throughout a single contact, which implies `P > 0`, or between
+    /// adhesive edges, which may pull.
     pub pressure: Option<Extremum<T>>,
-    /// Least gap at a place outside where the bodies approach each other again, a length, negative
-    /// by no more than rounding. `None` if the gap grows on both sides up to the ends, and between
-    /// two contacts has a single maximum.
+    /// Least gap at a place outside where the bodies approach each other again, a length. `None`
+    /// where there is no such place: the gap grows on both sides up to the ends, and between two
+    /// contacts has a single maximum.
     pub gap: Option<Extremum<T>>,
     /// Length of the longest cell: a feature at least a quarter as wide cannot have been missed. It
     /// is a 400th of the bodies, or four times the [resolution](crate::Contact::resolution) if that
@@ -75,6 +76,16 @@ pub struct Certificate<T> {
     pub spacing: T,
     /// Cost of the certificate.
     pub cost: Cost,
+}
+
+impl<T: Real> Certificate<T> {
+    /// Tells whether no sign hangs on rounding: the least ratio and the least gap are positive, or
+    /// there is none. Else the pressure touches zero, or the bodies touch once more, and may be
+    /// negative by the rounding, or by what the estimated error of the limits leaves open.
+    #[must_use]
+    pub fn is_proved(&self) -> bool {
+        [self.pressure, self.gap].iter().flatten().all(|least| least.value > T::zero())
+    }
 }
 
 /// Place and value of an extremum.
@@ -264,10 +275,9 @@ fn followed<T: Real>(ends: Ends<T>, on: Interval<T>) -> Ends<T> {
 
 /// Returns the lower of two extrema.
 fn nearer<T: Real>(one: Option<Extremum<T>>, other: Option<Extremum<T>>) -> Option<Extremum<T>> {
-    match (one, other) {
-        (Some(one), Some(other)) => Some(if one.value < other.value { one } else { other }),
-        (one, other) => one.or(other),
-    }
+    one.into_iter()
+        .chain(other)
+        .reduce(|one, other| if one.value < other.value { one } else { other })
 }
 
 #[cfg(test)]

@@ -102,6 +102,7 @@ impl<T: Real> Display for Certificate<T> {
                 f.write_str(")")?;
             }
         }
+        f.write_str(if self.is_proved() { "" } else { ", up to rounding" })?;
         write!(f, ", in cells of {}: {}", rounded(self.spacing, f), self.cost)
     }
 }

@@ -510,6 +510,29 @@ fn what_a_plain_certificate_takes() {
     contact.solve(Control::Load(0.02)).unwrap();
 }
 
+/// Least ratio and least gap of a proved contact are values, not doubts. A pressure that is
+/// negative by no more than rounding is proved up to that.
+#[test]
+fn what_is_proved_and_what_hangs_on_rounding() {
+    let two_feet = common::quartic(-2.0, 2.0);
+    let contact = Contact::new(&Flat, &*two_feet).unwrap();
+    let certificate = contact.solve(Control::Load(0.5)).unwrap().certify().unwrap();
+    assert!(certificate.pressure.unwrap().value > 0.5 && certificate.is_proved(), "{certificate}");
+    assert!(!certificate.to_string().contains("up to rounding"));
+
+    // P is proportional to (L²/2 - 0.1 + x²) sqrt(L² - x²), at x = 0 less than zero by rounding.
+    let hollow = graph(-1.0, 1.0, |x| [x.powi(4) / 4.0 - 0.05 * x * x, x.powi(3) - 0.1 * x]);
+    let contact = Contact::new(&Flat, &*hollow).unwrap().single_interval(true);
+    for (off, is_proved) in [(1e-3, true), (1e-9, true), (-1e-14, false)] {
+        let half_width = f64::sqrt(2.0 * (0.1 + off));
+        let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
+        let certificate = solution.certify().unwrap();
+        let text = certificate.to_string();
+        assert_eq!(certificate.is_proved(), is_proved, "{off}: {certificate:?}");
+        assert_eq!(text.contains(", up to rounding, in cells"), !is_proved, "{text}");
+    }
+}
+
 #[test]
 fn a_kink_that_nobody_declared() {
     for (s, parts) in [(1e-3, false), (0.125, true)] {

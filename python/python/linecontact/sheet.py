@@ -183,6 +183,8 @@ def _notes(row: Row, units: dict[str, str]) -> list[str]:
 
     deviation = f"half-width +- {text('half_width_deviation')}, largest pressure +- {text('peak_deviation')}"
     checked = "no tension in the contact, no overlap beside it" if solution.is_checked else "no, see certify"
+    if solution.contact._settings["certified"]:
+        checked += ": proved" if solution.certify().is_proved else ": proved up to rounding"
     errors = [numbers["limits_error"], numbers["peak_error"] / numbers["peak_pressure"]]
     error = 10.0 ** math.ceil(math.log10(max([one for one in errors if one > _EXACT], default=_EXACT)))
     several = f"{len(solution.intervals)} contacts: the limits are those of the first and the last"

@@ -157,8 +157,9 @@ class Certificate(NamedTuple):
     Attributes
     ----------
     pressure : Extremum or None
-        Smallest ratio of the pressure to the pressure of a smooth body, and its x. None if there is
-        no doubt.
+        Smallest ratio of the pressure to the pressure of a smooth body, and its x. None where the
+        slope of the gap rises throughout, so that there is pressure everywhere, and between
+        adhesive edges, which may pull.
     gap : Extremum or None
         Smallest gap where the bodies approach each other again, a length, and its x. None where
         they do not.
@@ -167,12 +168,17 @@ class Certificate(NamedTuple):
         is a 400th of the bodies, or four times the resolution of the contact if that is shorter.
     cost : Cost
         Cost of the certificate.
+    is_proved : bool
+        True if no sign hangs on rounding: `pressure` and `gap` are positive, or None. Else the
+        pressure touches zero, or the bodies touch once more, to within rounding or the estimated
+        error of the limits.
     """
 
     pressure: Extremum | None
     gap: Extremum | None
     spacing: float
     cost: Cost
+    is_proved: bool
 
 
 class ContactRegion(NamedTuple):
@@ -536,15 +542,17 @@ class Solution:
         --------
         >>> import linecontact as lc
         >>> solution = lc.solve(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), kappa=1.0, load=0.02)
-        >>> solution.certify().gap is None  # the gap grows on both sides up to the ends
-        True
+        >>> certificate = solution.certify()
+        >>> certificate.is_proved, certificate.gap  # the gap grows on both sides up to the ends
+        (True, None)
         """
-        pressure, gap, spacing, cost = self._found.certify()
+        pressure, gap, spacing, cost, is_proved = self._found.certify()
         return Certificate(
             None if pressure is None else Extremum(*pressure),
             None if gap is None else Extremum(*gap),
             spacing,
             Cost(*cost),
+            is_proved,
         )
 
     @overload

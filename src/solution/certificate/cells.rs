@@ -129,10 +129,7 @@ impl<'g, T: Real> Cells<'g, T> {
                 let slope = sampler.slope(self.gap, x)?;
                 let off = (slope - assumed).abs();
                 if off > most {
-                    missed = Some((
-                        off,
-                        ContactError::Solve(SolveError::FeatureMissed { x, slope, assumed }),
-                    ));
+                    missed = Some((off, SolveError::FeatureMissed { x, slope, assumed }.into()));
                 }
             }
         }

@@ -75,10 +75,9 @@ impl<T: Real> Inside<'_, T> {
                 left = right;
             }
         }
-        match (found.worst, found.ratio) {
-            (Some(place), _) => Err(self.tension(place)),
-            (None, Some(ratio)) => Ok(ratio),
-            (None, None) => Err(undecided(on.centre(), cost)),
+        match found.worst {
+            Some(place) => Err(self.tension(place)),
+            None => found.ratio.ok_or_else(|| undecided(on.centre(), cost)),
         }
     }
 

@@ -68,10 +68,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
     }
 
     fn sign(&self) -> T {
-        match self.side {
-            Side::Left => -T::one(),
-            Side::Right => T::one(),
-        }
+        if self.side == Side::Left { -T::one() } else { T::one() }
     }
 
     fn on(&self) -> Interval<T> {
