@@ -173,8 +173,8 @@ impl Solution {
     }
 
     #[getter]
-    fn is_steep(&self) -> bool {
-        self.0.is_steep()
+    fn is_steep(&self, py: Python<'_>) -> PyResult<bool> {
+        call::library(py, || Ok::<_, ContactError<f64>>(self.0.is_steep()))
     }
 
     #[getter]

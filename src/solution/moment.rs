@@ -13,7 +13,8 @@ impl<T: Real> Solution<'_, T> {
 
     /// Returns the moment of the pressure about x = 0, `∫ x P dx`: a force. Its error is the
     /// rounding of F times the largest x of the contact; next to a kink of the slope some 1e-12 of
-    /// F L.
+    /// F L. With [`Midpoint`](crate::Midpoint), whose pressures between its points are good to a
+    /// thousandth, it is some 1e-3 of F L.
     ///
     /// # Errors
     /// Those of [`pressure`](Self::pressure);

@@ -13,10 +13,10 @@ pub const STEEPEST_HALF_PLANE: f64 = 0.3;
 const POINTS: usize = 17;
 
 impl<T: Real> Solution<'_, T> {
-    /// Tells whether the slope of the gap, at the samples of the solve and at the limits of the
-    /// contacts, exceeds [`STEEPEST_HALF_PLANE`]: half-planes may then be a poor model of the
-    /// bodies. It takes no evaluation, and does not see two surfaces that are equally steep:
-    /// [`steepest_slope`](Self::steepest_slope) does.
+    /// Tells whether the slope of the gap at the limits of the contacts, or the
+    /// [steepest slope](Self::steepest_slope) of either surface, exceeds [`STEEPEST_HALF_PLANE`]:
+    /// half-planes may then be a poor model of the bodies. Where a body cannot be sampled the gap
+    /// alone decides.
     #[must_use]
     pub fn is_steep(&self) -> bool {
         let limits = self.intervals().iter().map(|on| [on.left, on.right]).enumerate();
@@ -24,6 +24,7 @@ impl<T: Real> Solution<'_, T> {
         let steep = |slope: T| slope.abs() > T::of(STEEPEST_HALF_PLANE);
         let mut slopes = limits.flat_map(|(i, limits)| limits.map(|x| solved.sampled_slope(i, x)));
         slopes.any(|slope| slope.is_some_and(|(slope, _)| steep(slope)))
+            || self.steepest_slope().is_ok_and(steep)
     }
 
     /// Returns the largest slope `|f'|` of either surface within the contacts, before loading: a

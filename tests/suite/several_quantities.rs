@@ -6,6 +6,7 @@ use crate::common::NanSafe;
 use crate::common::{Profile, difference, graph, join, several};
 use crate::forms::KAPPA;
 
+use linecontact::profile::Ellipse;
 use linecontact::reference::{ClosedForm, Hertz, PolynomialMap, Quartic, Wedge, body};
 use linecontact::{
     Contact, ContactError, ContactRegion, Control, Cost, Edge, Ends, EvaluationError, Flat,
@@ -656,6 +657,20 @@ fn in_single_precision_estimates_are_honest() {
         }
         let rates = solution.load_rates().unwrap();
         assert!(rates.limits.iter().all(|rates| rates.left < 0.0 && rates.right > 0.0));
+    }
+}
+
+/// A pin in a hole up to 75°: both surfaces are steep there, and the gap between them is not.
+#[test]
+fn steepness_of_a_pin_in_a_hole() {
+    let arc = |radius: f64| Ellipse::circle(radius, [-1.5, 1.5]).unwrap();
+    let (pin, hole) = (arc(10.0), arc(10.01));
+    for (degrees, steep) in [(75.0f64, true), (10.0, false)] {
+        let half_width = 10.0 * degrees.to_radians().sin();
+        let contact = Contact::new(&hole, &pin).unwrap();
+        let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
+        assert_eq!(solution.is_steep(), steep);
+        assert_eq!(solution.steepest_slope().unwrap() > linecontact::STEEPEST_HALF_PLANE, steep);
     }
 }
 

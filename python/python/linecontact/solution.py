@@ -484,7 +484,10 @@ class Solution:
 
     @property
     def is_steep(self) -> bool:
-        """True if the slope of the gap exceeds 0.3, too much for half-planes: check the units."""
+        """True if a slope exceeds 0.3, too much for half-planes: check the units.
+
+        It is that of the gap at the limits of the contacts, or the steepest of either surface.
+        """
         return self._found.is_steep
 
     @property
