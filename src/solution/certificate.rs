@@ -313,7 +313,7 @@ mod tests {
         for _ in 0..30 {
             let [one, two, three, four] = limits;
             let on = [Interval { left: one, right: two }, Interval { left: three, right: four }];
-            several.set(&gap, &on, corners, ends, false)?;
+            several.set(&gap, &on, &[corners; 2], ends, false)?;
             several.system(LOAD / kappa, &mut system);
             assert!(system.factor());
             system.step(&mut steps);

@@ -54,7 +54,7 @@ pub struct LoadRates<T> {
 #[derive(Clone, Debug, PartialEq)]
 enum Touching<T> {
     One(Interval<T>),
-    Several(LoadResponse<T>),
+    Several(Box<LoadResponse<T>>),
 }
 
 impl<T: Real> Density<T> for &LoadRates<T> {
@@ -128,7 +128,7 @@ impl<T: Real> LoadRates<T> {
             };
             limits.iter_mut().for_each(|rates| *rates = rates.map(|rate| rate / kappa));
             let [b, a] = [-limits[0].left, limits[limits.len() - 1].right];
-            return Ok(Self { a, b, limits, punch: Touching::Several(punch) });
+            return Ok(Self { a, b, limits, punch: Touching::Several(Box::new(punch)) });
         }
         if found.free == Ends::both(false) {
             return if found.error.is_none() {

@@ -118,7 +118,10 @@ impl<T: Real> Solved<'_, T> {
                 interval,
                 // The load of a single contact is known.
                 load: if is_one { whole } else { load },
-                held: self.free(i).zip(self.found.adhesive).map(|(free, adhesive)| !(free || adhesive)),
+                held: self
+                    .free(i)
+                    .zip(self.found.adhesive)
+                    .map(|(free, adhesive)| !(free || adhesive)),
                 edge_singularities: self.strengths(i),
                 peak,
                 turning,

@@ -82,7 +82,20 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         let (cells, has_run_out, [closed, lost]) = (FIRST_CELLS, false, [Vec::new(), Vec::new()]);
         let (held, beyond) = (Vec::new(), Vec::new());
         let (runs_out, end, samples) = (None, None, work.integrator.cost().samples);
-        Self { contact, conditions, work, samples, cells, held, beyond, closed, lost, runs_out, has_run_out, end }
+        Self {
+            contact,
+            conditions,
+            work,
+            samples,
+            cells,
+            held,
+            beyond,
+            closed,
+            lost,
+            runs_out,
+            has_run_out,
+            end,
+        }
     }
 
     fn find(&mut self) -> Result<ContactState<T>, ContactError<T>> {

@@ -56,7 +56,9 @@ impl Series {
         loop {
             let series = Self::of(on, count, &|x, p| pressure.at_many(x, p).unwrap());
             let is_left = |share: f64| series.tail > share * load;
-            if !is_left(if count >= TERMS[1] { goal.max(TAIL[1]) } else { goal }) || count == TERMS[2] {
+            if !is_left(if count >= TERMS[1] { goal.max(TAIL[1]) } else { goal })
+                || count == TERMS[2]
+            {
                 return series;
             }
             count *= 2;
@@ -530,7 +532,12 @@ fn waves_touch_as_bodies_do() {
             Ok(contact.solve(Control::Load(load))?.intervals().to_vec())
         };
         let height = |x: f64| scene.at(x)[0];
-        let bodies = Bodies { tail: TAIL[0], height: &height, kappa: scene.kappa, places: scene.places(12.0) };
+        let bodies = Bodies {
+            tail: TAIL[0],
+            height: &height,
+            kappa: scene.kappa,
+            places: scene.places(12.0),
+        };
         tally.take(&format!("{seed} {scene:?}"), &contact, &wide, &bodies, load, WAVES);
     }
     tally.finish();
@@ -579,7 +586,8 @@ fn no_wrong_answer_of_a_loose_tolerance_is_certified() {
         let contact = Contact::new(&Flat, &body).unwrap().quadrature(&rule).single_interval(true);
         let Ok(solution) = contact.solve(Control::Load(load)) else { continue };
         let height = |x: f64| scene.at(x)[0];
-        let bodies = Bodies { tail: TAIL[0], height: &height, kappa: 1.0, places: scene.places(12.0) };
+        let bodies =
+            Bodies { tail: TAIL[0], height: &height, kappa: 1.0, places: scene.places(12.0) };
         let faults = judge(&bodies, &solution, load);
         let is_wrong = faults.tension > 0.02 || faults.overlap > 0.02;
         let is_certified = solution.certify().is_ok();

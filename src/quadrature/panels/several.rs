@@ -194,7 +194,17 @@ impl<T: Real> Several<T> {
         let middles = self.weight.middles().to_vec();
         let terms = self.terms.clone();
         let is_inverse = self.weight.is_inverse();
-        CauchyTransform { contacts, middles, is_inverse, corners, terms, strengths, far_away, kappa, load }
+        CauchyTransform {
+            contacts,
+            middles,
+            is_inverse,
+            corners,
+            terms,
+            strengths,
+            far_away,
+            kappa,
+            load,
+        }
     }
 
     /// Returns the number of poles of p.

@@ -378,10 +378,7 @@ impl<T: Real> NewtonSeveral<T> {
                 left: kappa * several.strength(0, Side::Left),
                 right: kappa * several.strength(on.len() - 1, Side::Right),
             },
-            free: Ends {
-                left: !self.held[0].left,
-                right: !self.held[on.len() - 1].right,
-            },
+            free: Ends { left: !self.held[0].left, right: !self.held[on.len() - 1].right },
             adhesive: Ends::both(false),
             error: Some(self.errors.iter().fold(T::zero(), |max, &error| max.max(error))),
             error_by_load: Some(sum / all),

@@ -68,8 +68,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         loop {
             let mut found = match self.converge_once(conditions)? {
                 Ok(found) => found,
-                stopped => {
-                    return Ok(stopped) },
+                stopped => return Ok(stopped),
             };
             if !self.misses(&found)? && !self.lets_go(&mut found)? {
                 return Ok(Ok(found));
@@ -155,7 +154,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Tells whether the gap opens so steeply beyond a breakpoint that a limit next to it depends on
     /// it. `mean` is `F/(κ L)`.
-    fn is_sharp(&mut self, z: T, side: Side, mean: T, half_width: T) -> Result<bool, ContactError<T>> {
+    fn is_sharp(
+        &mut self,
+        z: T,
+        side: Side,
+        mean: T,
+        half_width: T,
+    ) -> Result<bool, ContactError<T>> {
         Ok(self.steepest_beyond(z, side, half_width)? > least_rise(mean))
     }
 
@@ -229,7 +234,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
             return Ok(false);
         }
         let held = self.strengths(found);
-        let lower = |one: Held<T>, other: Held<T>| if other.strength < one.strength { other } else { one };
+        let lower =
+            |one: Held<T>, other: Held<T>| if other.strength < one.strength { other } else { one };
         let lowest = held.into_iter().reduce(lower).filter(|held| held.strength < T::zero());
         if let Some(Held { contact, side, z, .. }) = lowest {
             let half_width = self.work.workspace.newton.on[contact].half_width();
@@ -280,7 +286,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let limits = limits.filter(|&(i, side)| held[i][side]);
         limits
             .map(|(contact, side)| {
-                let of_several = several.map(|several| self.contact.kappa * several.strength(contact, side));
+                let of_several =
+                    several.map(|several| self.contact.kappa * several.strength(contact, side));
                 let strength = of_several.unwrap_or(found.strengths[side]);
                 Held { contact, side, z: on[contact][side], strength }
             })
@@ -289,7 +296,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Returns the distance d beyond a corner at which the contact ends, given the strength with the
     /// limit held there.
-    fn beyond(&mut self, z: T, side: Side, strength: T, half_width: T) -> Result<T, ContactError<T>> {
+    fn beyond(
+        &mut self,
+        z: T,
+        side: Side,
+        strength: T,
+        half_width: T,
+    ) -> Result<T, ContactError<T>> {
         let rule = GaussLegendre::coarsest();
         let half = T::of(0.5);
         let due = T::pi() * T::pi() * strength * (half * half_width).sqrt() / self.contact.kappa;
@@ -300,7 +313,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let steepest = self.steepest_beyond(z, side, half_width)?;
         let most = self.wall_beyond(z, side, half * half_width).sqrt();
         let mut share_at = |root: T| -> Result<T, ContactError<T>> {
-            let away: Vec<T> = nodes.iter().map(|&[u, _]| root * root * (T::one() - u * u)).collect();
+            let away: Vec<T> =
+                nodes.iter().map(|&[u, _]| root * root * (T::one() - u * u)).collect();
             let rises = self.rise_beyond(z, side, &away)?;
             let both = rises.iter().zip(&nodes);
             Ok(both.fold(T::zero(), |sum, (&rise, &[_, weight])| sum + weight * rise) * root / due)
@@ -320,11 +334,15 @@ impl<T: Real> Search<'_, '_, '_, T> {
             if share > T::one() {
                 break;
             }
-            if high >= most { return Ok(best[1] * best[1]); }
+            if high >= most {
+                return Ok(best[1] * best[1]);
+            }
             low = high;
             high = (high + high).min(most);
         }
-        if best[0] < T::one() { return Ok(best[1] * best[1]); }
+        if best[0] < T::one() {
+            return Ok(best[1] * best[1]);
+        }
         for _ in 0..MAX_STEPS {
             let root = (low * high).sqrt();
             let share = share_at(root)?;

@@ -37,7 +37,9 @@ impl Fall {
         match self.wall {
             Wall::Line => [s, 1.0],
             Wall::Arc => [s * (2.0 - s), 2.0 - 2.0 * s],
-            Wall::Fillet if s < FILLET => [0.5 * s * s / FILLET / (1.0 - 0.5 * FILLET), s / FILLET / (1.0 - 0.5 * FILLET)],
+            Wall::Fillet if s < FILLET => {
+                [0.5 * s * s / FILLET / (1.0 - 0.5 * FILLET), s / FILLET / (1.0 - 0.5 * FILLET)]
+            }
             Wall::Fillet => [(s - 0.5 * FILLET) / (1.0 - 0.5 * FILLET), 1.0 / (1.0 - 0.5 * FILLET)],
         }
     }
@@ -71,7 +73,7 @@ impl Scene {
         let count = if radius.is_some() { 1.0 } else { 0.0 };
         let count = (count + (5.0 - count) * dice.uniform()) as usize;
         let half = 2.0;
-        let mut fall = |dice: &mut Dice, x: f64, outward: f64, room: f64, depth: f64| {
+        let fall = |dice: &mut Dice, x: f64, outward: f64, room: f64, depth: f64| {
             let wall = [Wall::Line, Wall::Line, Wall::Arc, Wall::Fillet];
             let wall = wall[(4.0 * dice.uniform()) as usize];
             let steepest = if dice.uniform() < 0.5 { 0.5 } else { 9.0 };
@@ -219,7 +221,8 @@ fn two_lands_bear_like_two_flat_punches() {
     for slope in [1e9, 1e3, 1.0, 0.06] {
         let (depth, load) = (0.05, 1e-3 * PI);
         let width = depth / slope;
-        let wall = |x: f64, outward: f64| Fall { wall: Wall::Line, x: [x, x + outward * width], depth };
+        let wall =
+            |x: f64, outward: f64| Fall { wall: Wall::Line, x: [x, x + outward * width], depth };
         let scene = Scene {
             half: 2.0,
             radius: None,

@@ -139,7 +139,11 @@ fn right_answers_are_certified() {
         let gap = |x: f64| height(&*upper, x) - height(&*lower, x);
         let [from, to] = contact_range(&*upper);
         let places = (0..=4000).map(|i| from + (to - from) * f64::from(i) / 4000.0).collect();
-        let faults = judge(&Bodies { height: &gap, kappa: 1.0, places }, &solution, load);
+        let faults = judge(
+            &Bodies { tail: super::TAIL[0], height: &gap, kappa: 1.0, places },
+            &solution,
+            load,
+        );
         if !faults.is_wrong(SPLINES) {
             accused.push(format!("{seed}, {:?}: {error}", intervals(&solution)));
         }

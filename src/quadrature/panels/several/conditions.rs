@@ -3,9 +3,9 @@
 use super::Several;
 use super::one_of_several::OneOfSeveral;
 use super::system::{Besides, System};
+use super::terms::Terms;
 use crate::numerics::FarField;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use super::terms::Terms;
 use crate::{Interval, Real, Side};
 
 /// Longest span in a gap for one Gauss rule, in the variable t of `x = β + 2 L sinh²(t/2)`: the
@@ -234,7 +234,8 @@ impl<T: Real> Several<T> {
             while last - start > T::of(8.0) * T::epsilon() * last {
                 let rest = last - start;
                 let count = (rest / longest).ceil();
-                let step = if longest < T::of(MAX_GAUSS_SPAN) { rest.min(longest) } else { rest / count };
+                let step =
+                    if longest < T::of(MAX_GAUSS_SPAN) { rest.min(longest) } else { rest / count };
                 for (&node, &weight) in rule.nodes.iter().zip(&rule.weights).take(rule.n) {
                     let t = start + half * step * T::of(1.0 + node);
                     let sinh = (half * t).sinh();

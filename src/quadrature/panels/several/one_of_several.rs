@@ -250,8 +250,12 @@ impl<T: Real> OneOfSeveral<T> {
     pub fn wall(&self, side: Side) -> Option<T> {
         let (on, panels) = (self.on, within(&self.panel_set.panels, self.on));
         let [last, others] = match side {
-            Side::Left => panels.split_first().map(|(last, others)| [std::slice::from_ref(last), others]),
-            Side::Right => panels.split_last().map(|(last, others)| [std::slice::from_ref(last), others]),
+            Side::Left => {
+                panels.split_first().map(|(last, others)| [std::slice::from_ref(last), others])
+            }
+            Side::Right => {
+                panels.split_last().map(|(last, others)| [std::slice::from_ref(last), others])
+            }
         }?;
         let end = |panel: &Panel<T>| panel.x[usize::from(side == Side::Left)];
         let wall = (on[side] - end(&last[0])).abs();

@@ -31,7 +31,8 @@ impl<T: Real> Several<T> {
             for (lane, pressure) in out.iter_mut().enumerate() {
                 let x = lanes[lane];
                 let near = self.far.near(i).filter(|&k| k != i);
-                let others = self.outside(near, x, None) + self.far.far(i, [x])[0] + self.terms.at(x);
+                let others =
+                    self.outside(near, x, None) + self.far.far(i, [x])[0] + self.terms.at(x);
                 let weight = self.weight.on_contact(i, [x])[0];
                 *pressure = (own[lane] + root[lane] * others) / (T::pi() * T::pi() * weight);
             }

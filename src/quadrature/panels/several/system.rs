@@ -197,7 +197,9 @@ impl<T: Real> System<T> {
         let rows = self.rows.chunks_exact(2 * n);
         let besides = others.get(rows.len()).map_or(T::zero(), |&value| value);
         row.clear();
-        row.extend(rows.zip(others).map(|(row, &value)| value + dot(&row[n..n + balance.len()], balance)));
+        row.extend(
+            rows.zip(others).map(|(row, &value)| value + dot(&row[n..n + balance.len()], balance)),
+        );
         // The constants with the sign of a step, so the known part of Q, too.
         self.linear.solve(row, known);
         known.extend(balance.iter().map(|&value| -value));
