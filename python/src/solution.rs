@@ -55,8 +55,8 @@ fn outcome(outcome: Outcome) -> &'static str {
 #[pyclass(frozen, module = "linecontact._native")]
 pub struct Solution(pub linecontact::Solution<'static, f64>);
 
-/// Interval, load, strengths, peak, moment and centre of pressure.
-type Region = (Pair, f64, Pair, Option<Pair>, f64, Option<f64>);
+/// Interval, load, strengths, peak, moment, centre of pressure, and flags: held at corners.
+type Region = (Pair, f64, Pair, Option<Pair>, f64, Option<f64>, (bool, bool));
 
 /// Intervals, load, loads, κ, tilt, mean pressure, peak and centre of pressure.
 type Row = (Vec<Pair>, f64, Vec<f64>, f64, f64, f64, Option<Pair>, Option<f64>);
@@ -233,7 +233,9 @@ impl Solution {
             let Ends { left, right } = contact.edge_singularities;
             let peak = contact.peak.map(|peak| (peak.x, peak.pressure));
             let centre = contact.centre_of_pressure().ok();
-            (pair(&contact.interval), contact.load, (left, right), peak, contact.moment(), centre)
+            let held = (contact.held.left, contact.held.right);
+            let (strengths, moment) = ((left, right), contact.moment());
+            (pair(&contact.interval), contact.load, strengths, peak, moment, centre, held)
         };
         Ok(contacts.iter().map(region).collect())
     }

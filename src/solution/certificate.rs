@@ -150,7 +150,9 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
         }
     };
 
-    let is_held = Ends::from_fn(|side| adhesive[side] || at_corner[side]);
+    // A corner inside the bodies holds the limit, too.
+    let at_inner = |side: Side| !free[side] && !at_end[side] && gap.is_breakpoint(hull[side]);
+    let is_held = Ends::from_fn(|side| adhesive[side] || at_corner[side] || at_inner(side));
     if contacts.len() == 1 && [is_held] != *several.held() {
         several.set(gap, &contacts, &[is_held], found.ends, false)?;
         several.bear(load, &mut system);

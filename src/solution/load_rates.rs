@@ -131,7 +131,9 @@ impl<T: Real> LoadRates<T> {
             return Ok(Self { a, b, limits, punch: Touching::Several(Box::new(punch)) });
         }
         if found.free == Ends::both(false) {
-            return if found.error.is_none() {
+            let Ends { left, right } = found.ends;
+            let at_corner = |x: T| x == left || x == right || solved.gap.is_breakpoint(x);
+            return if found.error.is_none() || at_corner(on.left) && at_corner(on.right) {
                 Ok(Self::of_one(Ends::both(T::zero()), on))
             } else {
                 refuse("the limits were sought by Eq. (6), not by free edges")

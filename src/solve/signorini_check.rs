@@ -153,10 +153,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
         for (corner, side) in corners.into_iter().zip(Side::BOTH) {
             let away = corner.map(|corner| corner - on[side]).filter(|away| away.abs() < fourth);
             if let Some(away) = away {
-                let mut pressure = [T::zero()];
-                self.pressures(&[on[side] + (away + away)], &mut pressure)?;
-                // About the load over twice the distance, times the logarithm of the spacing over it.
-                unseen += T::of(16.0) * away.abs() * pressure[0].abs();
+                let mut pressures = [T::zero(); 2];
+                let inward = [away + away, fourth * away.signum()];
+                self.pressures(&inward.map(|inward| on[side] + inward), &mut pressures)?;
+                // A smooth pressure rises inward.
+                if pressures[0] > pressures[1] {
+                    // About the load up to there, times the logarithm of the spacing over it.
+                    unseen += T::of(16.0) * away.abs() * pressures[0];
+                }
             }
         }
         Ok(unseen)

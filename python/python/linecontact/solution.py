@@ -198,6 +198,9 @@ class ContactRegion(NamedTuple):
         Moment about x = 0: a force.
     centre_of_pressure : float or None
         A length; None without a load.
+    held : (bool, bool)
+        Whether a corner holds the left and the right limit: an end of the bodies, or a breakpoint
+        where the gap opens steeply.
     """
 
     interval: Interval
@@ -206,6 +209,7 @@ class ContactRegion(NamedTuple):
     peak: Peak | None
     moment: float
     centre_of_pressure: float | None
+    held: tuple[bool, bool]
 
 
 class Summary(NamedTuple):

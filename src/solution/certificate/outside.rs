@@ -27,6 +27,10 @@ const MAX_CELLS: usize = 1 << 16;
 /// slope.
 const MAX_TRUNCATION: f64 = 1e-2;
 
+/// Distance within which a limit held at a corner proves nothing, in errors of the limit: more than
+/// 16/π² beyond a jump, as beyond a wall that bends.
+const BLIND: f64 = 8.0;
+
 /// Contacts under load.
 pub(super) struct Loaded<'c, T: Real> {
     pub found: &'c ContactState<T>,
@@ -45,6 +49,9 @@ pub(super) struct OutsideOf<'o, T: Real> {
     side: Side,
     /// True if Φ falls outward.
     falls: bool,
+    /// Distance up to which nothing is proved: at a corner that holds the limit in place of one just
+    /// beyond it, the bodies overlap up to 16/π² of the distance between the two, beyond a jump.
+    blind: T,
     /// Height of the gap at `y`; `pending` is the height that the slopes of the bodies have added
     /// since.
     height: T,
@@ -64,7 +71,24 @@ impl<'o, T: Real> OutsideOf<'o, T> {
     pub fn new(of: &'o Loaded<'o, T>, contact: usize, side: Side, falls: bool) -> Self {
         let ([height, y, pending], [worst, closest, falling]) = ([T::zero(); 3], [None; 3]);
         let (open, cells) = (false, 0);
-        Self { of, contact, side, falls, height, y, pending, open, cells, worst, closest, falling }
+        let error = of.found.error.filter(|_| of.several.held()[contact][side]);
+        let half_width = of.several.contacts()[contact].half_width();
+        let blind = T::of(BLIND) * error.unwrap_or(T::zero()) * half_width;
+        Self {
+            of,
+            contact,
+            side,
+            falls,
+            blind,
+            height,
+            y,
+            pending,
+            open,
+            cells,
+            worst,
+            closest,
+            falling,
+        }
     }
 
     fn sign(&self) -> T {
@@ -227,7 +251,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 let [s, value] = least(&heights, enough);
                 let y = middle + s * reach;
                 let here = Extremum { x: self.edge() + sign * y * y, value };
-                if value < -(allowed + left_out) {
+                if value < -(allowed + left_out) && y * y > self.blind {
                     self.worst = nearer(Some(here), self.worst);
                 }
                 let turns = s > -T::one() && (self.open || value.abs() > allowed);

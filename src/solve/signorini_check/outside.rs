@@ -136,14 +136,17 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let heights = first.into_iter().chain(lows).chain(last);
             open.clear();
             let is_hidden = self.overlap_at(fields, look, heights, [dips, &mut open], cost)?;
-            share *= T::of(HIDING_FACTOR);
             if !dips.is_empty() {
                 return Ok(());
             }
             open.sort_by(|one, other| super::by_size(one[0], other[0]));
-            let is_finer =
+            let mut is_finer =
                 !open.is_empty() && look.refine_at(self.gap, [&open; 2], T::zero(), cost)?;
-            let is_finer = is_finer || is_hidden && self.resolve(fields, share)?;
+            // A narrow contact hides little of the load.
+            while is_hidden && !is_finer && share > T::epsilon() {
+                share *= T::of(HIDING_FACTOR);
+                is_finer = self.resolve(fields, share)?;
+            }
             if !is_finer {
                 break;
             }

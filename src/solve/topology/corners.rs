@@ -10,7 +10,7 @@
 //! | free, next to a corner | held there |
 //! | held, K < 0 | let go inward, the lowest first |
 //! | held, K > 0, inside the bodies | put beyond the corner by d, the furthest first |
-//! | held, K > 0, d as small as panels resolve | held: d is the error of the limit |
+//! | held, K > 0, d/L less than the rounding of x over d | held: d is the error of the limit, up to higher orders half of what is said |
 //!
 //! The last two are one contact. It ends where the slope s outside, above that at z, makes up for the
 //! pressure of the held one, to first order in d/L:
@@ -20,7 +20,7 @@
 //! ```
 
 use super::super::newton::Stop;
-use super::super::newton::several::put;
+use super::super::newton::several::{NewtonSeveral, put};
 use super::{Conditions, Given, Search};
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
@@ -35,6 +35,9 @@ const NEAR: f64 = 0.2;
 /// Largest d, as a share of the half-width, by the pressure of a flat, for which a corner is tried:
 /// beyond, the limit finds its place by itself.
 const SHARP: f64 = 0.1;
+
+/// Distance beyond a corner within which the gap opens so far, as a share of the half-width.
+const SHORT: f64 = 0.02;
 
 /// Share of a contact's half-width by which a limit leaves a corner inward.
 const STEP_INWARD: f64 = 0.01;
@@ -161,13 +164,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         mean: T,
         half_width: T,
     ) -> Result<bool, ContactError<T>> {
-        Ok(self.steepest_beyond(z, side, half_width)? > least_rise(mean))
+        Ok(self.steepest_beyond(z, side, T::of(SHORT) * half_width)? > least_rise(mean))
     }
 
-    /// Returns the steepest slope, outward, up to a share of a half-width beyond a breakpoint, above
-    /// the slope inside: at the ends of the pieces there.
-    fn steepest_beyond(&mut self, z: T, side: Side, half_width: T) -> Result<T, ContactError<T>> {
-        let reach = T::of(SHARP) * half_width;
+    /// Returns the steepest slope, outward, up to a distance beyond a breakpoint, above the slope
+    /// inside: at the ends of the pieces there.
+    fn steepest_beyond(&mut self, z: T, side: Side, reach: T) -> Result<T, ContactError<T>> {
         let at = z + outward::<T>(side) * reach;
         let on = Interval { left: z.min(at), right: z.max(at) };
         let ends = self.contact.gap.breakpoints(on).map(|x| (x - z).abs());
@@ -208,23 +210,21 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
     }
 
-    /// Returns the limits of each contact at hand that are held.
-    pub(super) fn held_limits(&self) -> Vec<Ends<bool>> {
-        let on = self.work.workspace.newton.on.iter();
-        on.map(|on| Ends::from_fn(|side| self.held.contains(&(on[side], side)))).collect()
-    }
-
-    /// Returns the corners beyond which limits of each contact at hand were put.
-    pub(super) fn corners_beyond(&self) -> Vec<Ends<Option<T>>> {
-        let corner = |on: &Interval<T>, side: Side| {
-            let is_near = |&&(z, at): &&(T, Side)| {
-                let distance = outward::<T>(side) * (on[side] - z);
-                at == side && distance > T::zero() && distance < on.half_width()
-            };
-            self.beyond.iter().find(is_near).map(|&(z, _)| z)
-        };
-        let on = self.work.workspace.newton.on.iter();
-        on.map(|on| Ends::from_fn(|side| corner(on, side))).collect()
+    /// Marks the limits of the contacts at hand that are held, and those put beyond corners.
+    pub(super) fn mark_corners(&mut self) {
+        let NewtonSeveral { on, held, beyond, .. } = &mut self.work.workspace.newton;
+        held.clear();
+        beyond.clear();
+        for on in &*on {
+            held.push(Ends::from_fn(|side| self.held.contains(&(on[side], side))));
+            beyond.push(Ends::from_fn(|side| {
+                let is_near = |&&(z, at): &&(T, Side)| {
+                    let distance = outward::<T>(side) * (on[side] - z);
+                    at == side && distance > T::zero() && distance < on.half_width()
+                };
+                self.beyond.iter().find(is_near).map(|&(z, _)| z)
+            }));
+        }
     }
 
     /// Lets go of corners that do not hold the contacts found, and tells whether there are any.
@@ -251,11 +251,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
             }
             let half_width = self.work.workspace.newton.on[contact].half_width();
             let d = self.beyond(z, side, strength, half_width)?;
-            let least = T::epsilon().powf(T::of(2.0 / 3.0)) * half_width;
-            if d > least.max(T::of(64.0) * T::epsilon() * z.abs()) {
+            // The rounding of x changes the pressure by a share ε x/(2 d).
+            let rounding = T::epsilon() * z.abs().max(half_width);
+            if d > (rounding * half_width).sqrt() {
                 beyond.push(((contact, side, z), d, d / half_width));
             } else {
-                error = error.max(d / half_width);
+                error = error.max((d + d) / half_width);
             }
         }
         // Each changes the pressure at the others by its share of the width.
@@ -265,7 +266,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 self.let_go(limit, d);
             }
         }
-        found.error = found.error.map(|known| known.max(error));
+        // An error of zero is that of corners at the ends.
+        if !error.is_zero() {
+            found.error = Some(found.error.unwrap_or(error).max(error));
+        }
         Ok(!beyond.is_empty())
     }
 
@@ -280,7 +284,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Lists the limits that are held, with the strengths of their singularities.
     fn strengths(&self, found: &ContactState<T>) -> Vec<Held<T>> {
-        let (on, held) = (&self.work.workspace.newton.on, self.held_limits());
+        let NewtonSeveral { on, held, .. } = &self.work.workspace.newton;
         let several = panels::several(self.work.integrator);
         let limits = (0..on.len()).flat_map(|i| Side::BOTH.map(|side| (i, side)));
         let limits = limits.filter(|&(i, side)| held[i][side]);
@@ -310,7 +314,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let nodes: Vec<[T; 2]> = (0..rule.n)
             .map(|i| [T::of(0.5 * (1.0 + rule.nodes[i])), T::of(rule.weights[i])])
             .collect();
-        let steepest = self.steepest_beyond(z, side, half_width)?;
+        let steepest = self.steepest_beyond(z, side, half * half_width)?;
         let most = self.wall_beyond(z, side, half * half_width).sqrt();
         let mut share_at = |root: T| -> Result<T, ContactError<T>> {
             let away: Vec<T> =

@@ -245,17 +245,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         conditions: &Conditions<T>,
     ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        let held = self.held_limits();
+        self.mark_corners();
         if let (&[on], None) = (&self.work.workspace.newton.on[..], self.end) {
-            return self.one_of_set(conditions, on, held[0]);
+            return self.one_of_set(conditions, on, self.work.workspace.newton.held[0]);
         }
-        let beyond = self.corners_beyond();
         let (contact, ends) = (self.contact, self.contact.ends());
         let Work { integrator, workspace, .. } = &mut *self.work;
         let newton = &mut workspace.newton;
-        newton.held = held;
-        newton.beyond.clear();
-        newton.beyond.extend(beyond);
         if let Some(side) = self.end {
             put(&mut newton.on, side, ends[side]);
         }

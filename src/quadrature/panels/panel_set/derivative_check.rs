@@ -126,7 +126,9 @@ impl<T: Real> PanelSet<T> {
         for (between, heights) in places.windows(2).zip(heights.windows(2)) {
             let (from, to) = (between[0], between[1]);
             let by_slopes = self.rise(from, to) - self.tilt * (to - from);
-            let (by_heights, highest) = (heights[1] - heights[0], sampler.highest);
+            // Turned, the bodies rise by as much as they are turned.
+            let highest = sampler.highest + self.tilt.abs() * (to - from);
+            let by_heights = heights[1] - heights[0];
             let span = within(&self.panels, Interval { left: from, right: to });
             let doubt = |sum, panel: &Panel<T>| sum + panel.error * (panel.x[1] - panel.x[0]);
             let open = T::of(8.0) * span.iter().fold(T::zero(), doubt);

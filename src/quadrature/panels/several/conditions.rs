@@ -13,6 +13,9 @@ use crate::{Interval, Real, Side};
 /// 3⁻³², and the eight of a trial 3⁻¹⁶.
 const MAX_GAUSS_SPAN: f64 = 2.0;
 
+/// Limit on the number of such spans: more than any gap and contact of finite widths have.
+const MAX_STRETCHES: usize = 1000;
+
 impl<T: Real> Several<T> {
     /// Sets the load, given as F/κ, and the residues at the poles of p.
     pub fn carry(&mut self, load: T, residues: &[T]) {
@@ -226,16 +229,17 @@ impl<T: Real> Several<T> {
             let last = T::of(2.0) * (width / (T::of(4.0) * on.half_width())).sqrt().asinh();
             let side = if near == k { Side::Right } else { Side::Left };
             // Beyond a corner as near as this, Φ has a singularity at ±i times its t.
-            let mut longest = match self.parts[near].wall(side) {
+            let wall = self.parts[near].wall(side);
+            let mut longest = match wall {
                 Some(wall) => T::of(2.0) * (wall / (T::of(4.0) * on.half_width())).sqrt().asinh(),
                 None => T::of(MAX_GAUSS_SPAN),
             };
             let mut start = T::zero();
             while last - start > T::of(8.0) * T::epsilon() * last {
                 let rest = last - start;
-                let count = (rest / longest).ceil();
-                let step =
-                    if longest < T::of(MAX_GAUSS_SPAN) { rest.min(longest) } else { rest / count };
+                let pieces =
+                    (1..MAX_STRETCHES).find(|&n| longest * T::count(n) >= rest).unwrap_or(1);
+                let step = if wall.is_some() { rest.min(longest) } else { rest / T::count(pieces) };
                 for (&node, &weight) in rule.nodes.iter().zip(&rule.weights).take(rule.n) {
                     let t = start + half * step * T::of(1.0 + node);
                     let sinh = (half * t).sinh();
@@ -339,12 +343,13 @@ impl<T: Real> Several<T> {
         let mut others = vec![zero; system.residual.len()];
         let gaps = others.len() - system.by_tilt.len();
         others[gaps..].copy_from_slice(&system.by_tilt);
-        others[..system.load_row].fill(pi);
+        let no_corners = self.weight.corners() == 0;
+        let zeros = system.load_row - usize::from(no_corners);
+        others[if no_corners { zeros..zeros + 1 } else { 0..zeros }].fill(pi);
         if !inverse {
             others[system.load_row] = self.afar(&system.poles.at, centre)[0];
         }
         let [first, mut by_unknown] = self.afar(&system.poles.at, at);
-        let no_corners = self.weight.corners() == 0;
         let mut borne = self.powers(at)[usize::from(no_corners)];
         let power = if no_corners { 2 } else { 1 - i32::from(inverse) };
         if inverse {
