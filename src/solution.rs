@@ -50,7 +50,7 @@ pub use approach::Approach;
 pub(crate) use approach::Approaching;
 pub(crate) use certificate::certify;
 pub use certificate::{Certificate, Extremum};
-pub(crate) use contact_state::ContactState;
+pub(crate) use contact_state::{BLIND, ContactState};
 pub use load_rates::LoadRates;
 pub use partial_slip::{PartialSlip, Shear, SlipStress, Traction};
 pub use peak::Peak;

@@ -10,6 +10,10 @@ const ERRORS: f64 = 16.0;
 /// Largest share of a usual value in the contacts that counts as zero.
 const MAX_TOLERANCE: f64 = 0.01;
 
+/// Distance from a corner within which a limit held there proves nothing, in errors of the limit:
+/// more than 16/π² beyond a jump, as beyond a wall that bends.
+pub(crate) const BLIND: f64 = 8.0;
+
 /// Contact that a search has found.
 #[derive(Clone, Copy)]
 pub(crate) struct ContactState<T> {

@@ -208,8 +208,8 @@ impl<T: Real> ExteriorFields<T> {
 /// Returns a bound on the potential of the coefficients that a cosine series leaves out.
 ///
 /// If the coefficients fall as 1/n², as for a kink next to a limit, those left out add as much as
-/// the last quarter of the known ones. By aliasing these are off by up to as much, and the potential
-/// has coefficient n over n: their sum is a logarithm. The first few coefficients may not fall yet.
+/// the last quarter of the known ones, which are off by about as much. The first few coefficients
+/// may not fall yet.
 ///
 /// At a free limit `P w` is zero. A rest h of the series there falls to zero within the last half
 /// step of the angle, δ, and takes `(2/π) h δ` off each coefficient up to n = 1/δ.
@@ -227,7 +227,7 @@ fn tail<T: Real>(q: &[T], free: Ends<bool>) -> T {
     }
     let first = q.len() - q.len() / 4;
     let last = (first..q.len()).fold(zero, |sum, n| sum + q[n].abs() / T::count(n));
-    T::of(3.0) * T::count(q.len()).ln() * T::pi() * last + beside
+    T::of(4.0) * T::pi() * last + beside
 }
 
 /// Returns coefficient n of a cosine series from its values; their number is a power of two.

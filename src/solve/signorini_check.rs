@@ -40,6 +40,10 @@ const FAINT: f64 = 0.02;
 /// through three of them: next to a knot of a spline 3.3 has been seen.
 const MOST_BELOW: f64 = 8.0;
 
+/// Largest distance of a corner from a limit, as a share of the half-width, to act on the series of
+/// the pressure.
+const BESIDE: f64 = 0.1;
+
 /// Largest number of steps to a minimum of the pressure between the places evaluated.
 const MAX_STEPS: usize = 4;
 
@@ -102,7 +106,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             self.pressures(&x, &mut pressures)?;
             let free = panels::free_of(self.integrator, i, self.found.free);
             let mut field = ExteriorField::new(on, free, &x, &pressures);
-            field.doubt = field.doubt.max(self.unseen(on, POINTS)?);
+            self.doubt_at_corners(&mut field)?;
             fields.each.push(field);
         }
         Ok(())
@@ -135,35 +139,36 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 let mut pressures = vec![T::zero(); count];
                 self.pressures(&x, &mut pressures)?;
                 field.refine(&x, pressures);
-                field.doubt = field.doubt.max(self.unseen(field.on, count)?);
+                self.doubt_at_corners(field)?;
             }
         }
         fields.gather(self.gap.range());
         Ok(is_finer)
     }
 
-    /// Returns about the load that a number of places miss beyond corners next to the limits of a
-    /// contact: between a corner and a limit the pressure falls from that of a held one.
-    fn unseen(&self, on: Interval<T>, count: usize) -> Result<T, ContactError<T>> {
-        let step = T::pi() / T::count(count);
+    /// Adds to the uncertainty of a series what a corner just inside a limit does: the pressure falls
+    /// there from that of a held limit, like a logarithm.
+    fn doubt_at_corners(&self, field: &mut ExteriorField<T>) -> Result<(), ContactError<T>> {
+        let (on, count) = (field.on, T::count(field.coefficients().len()));
         // Place i lies (2 i + 1)² times as far from the limit as the first.
-        let fourth = T::of(49.0 / 8.0) * step * step * on.half_width();
+        let fourth = T::of(49.0 / 8.0) * (T::pi() / count).powi(2) * on.half_width();
         let corners = [self.gap.breakpoint_after(on.left), self.gap.breakpoint_before(on.right)];
-        let mut unseen = T::zero();
         for (corner, side) in corners.into_iter().zip(Side::BOTH) {
-            let away = corner.map(|corner| corner - on[side]).filter(|away| away.abs() < fourth);
-            if let Some(away) = away {
-                let mut pressures = [T::zero(); 2];
-                let inward = [away + away, fourth * away.signum()];
-                self.pressures(&inward.map(|inward| on[side] + inward), &mut pressures)?;
-                // A smooth pressure rises inward.
-                if pressures[0] > pressures[1] {
-                    // About the load up to there, times the logarithm of the spacing over it.
-                    unseen += T::of(16.0) * away.abs() * pressures[0];
-                }
+            let Some(corner) = corner else { continue };
+            let (away, [jump, size]) = ((corner - on[side]).abs(), self.gap.jump(corner));
+            if away > T::of(BESIDE) * on.half_width() || jump <= T::epsilon().sqrt() * size {
+                continue;
+            }
+            // Aliased, coefficients that fall as 1/n² add a logarithm to the potential.
+            field.doubt *= T::of(0.75) * count.ln();
+            if away < fourth {
+                let mut pressure = [T::zero()];
+                self.pressures(&[on[side] + (corner - on[side]) * T::of(2.0)], &mut pressure)?;
+                // About the load up to there, times the logarithm of the spacing over it.
+                field.doubt += T::of(16.0) * away * pressure[0].abs();
             }
         }
-        Ok(unseen)
+        Ok(())
     }
 
     /// Finds tension inside the contacts: returns the place and the pressure of the largest one,

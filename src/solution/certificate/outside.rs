@@ -14,6 +14,7 @@ use crate::gap::Cost;
 use crate::numerics::chebyshev::Table;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels::{Panel, Several, System};
+use crate::solution::BLIND;
 use crate::{ContactError, Interval, Real, Side};
 
 /// Number of nodes of a cell.
@@ -26,10 +27,6 @@ const MAX_CELLS: usize = 1 << 16;
 /// Truncation error from which on cells resolve nothing, as a share of the rise at the largest
 /// slope.
 const MAX_TRUNCATION: f64 = 1e-2;
-
-/// Distance within which a limit held at a corner proves nothing, in errors of the limit: more than
-/// 16/π² beyond a jump, as beyond a wall that bends.
-const BLIND: f64 = 8.0;
 
 /// Contacts under load.
 pub(super) struct Loaded<'c, T: Real> {

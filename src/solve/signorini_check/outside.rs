@@ -4,6 +4,7 @@
 use super::SignoriniCheck;
 use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
 use crate::quadrature::panels::{self, Rises};
+use crate::solution::BLIND;
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
@@ -258,7 +259,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 is_parted |= between.is_none();
                 continue;
             }
-            if between.is_some() && from.is_near(x) {
+            if between.is_some() && from.is_near(x) || from.is_blind(x) {
                 continue;
             }
             let judged = self.judge(fields, look, &from, low, &mut rate, open);
@@ -398,8 +399,17 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let near = T::of(SAMPLED_BEYOND) * contacts[contact].half_width();
         let is_limit = [next > 0, next < contacts.len()];
         let near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
+        // A corner holds the limit in place of one just beyond it.
+        let blind = |contact: Option<usize>, side: Side| {
+            let error = self.found.error.unwrap_or(T::zero());
+            let held = contact.filter(|&i| {
+                i < contacts.len() && !panels::free_of(self.integrator, i, self.found.free)[side]
+            });
+            held.map_or(T::zero(), |i| T::of(BLIND) * error * contacts[i].half_width())
+        };
+        let blind = [blind(next.checked_sub(1), Side::Right), blind(Some(next), Side::Left)];
         let taken = fields.potential(edge);
-        Beside { next, edge, room, near, height, hidden, taken }
+        Beside { next, edge, room, near, blind, height, hidden, taken }
     }
 
     /// Judges an unloaded height, given its place and its uncertainty.
@@ -472,6 +482,8 @@ struct Beside<T> {
     /// Distances from the left and the right limit within which the gap opens by the pressure
     /// inside.
     near: [T; 2],
+    /// Distances from both within which nothing is known.
+    blind: [T; 2],
     /// Height of the gap at this limit, its uncertainty, and the potential there.
     height: T,
     hidden: T,
@@ -479,6 +491,11 @@ struct Beside<T> {
 }
 
 impl<T: Real> Beside<T> {
+    /// Tells whether a place is closer to a corner that holds a limit than the limit is known.
+    fn is_blind(&self, x: T) -> bool {
+        x - self.room.left < self.blind[0] || self.room.right - x < self.blind[1]
+    }
+
     /// Tells whether a place is so close to a limit that the pressure inside decides about the gap.
     fn is_near(&self, x: T) -> bool {
         x - self.room.left < self.near[0] || self.room.right - x < self.near[1]
