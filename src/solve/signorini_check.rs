@@ -4,6 +4,7 @@
 //! g' with a kernel that is nowhere negative. Otherwise pressures are evaluated. Outside, the gap
 //! between the loaded bodies is evaluated where their heights are known.
 
+mod beside;
 mod outside;
 mod passed;
 mod step;
@@ -153,21 +154,26 @@ impl<T: Real> SignoriniCheck<'_, T> {
         // Place i lies (2 i + 1)² times as far from the limit as the first.
         let fourth = T::of(49.0 / 8.0) * (T::pi() / count).powi(2) * on.half_width();
         let corners = [self.gap.breakpoint_after(on.left), self.gap.breakpoint_before(on.right)];
+        let (mut is_beside, mut unseen) = (false, T::zero());
         for (corner, side) in corners.into_iter().zip(Side::BOTH) {
             let Some(corner) = corner else { continue };
             let (away, [jump, size]) = ((corner - on[side]).abs(), self.gap.jump(corner));
             if away > T::of(BESIDE) * on.half_width() || jump <= T::epsilon().sqrt() * size {
                 continue;
             }
-            // Aliased, coefficients that fall as 1/n² add a logarithm to the potential.
-            field.doubt *= T::of(0.75) * count.ln();
+            is_beside = true;
             if away < fourth {
                 let mut pressure = [T::zero()];
                 self.pressures(&[on[side] + (corner - on[side]) * T::of(2.0)], &mut pressure)?;
                 // About the load up to there, times the logarithm of the spacing over it.
-                field.doubt += T::of(16.0) * away * pressure[0].abs();
+                unseen += T::of(16.0) * away * pressure[0].abs();
             }
         }
+        if is_beside {
+            // Aliased, coefficients that fall as 1/n² add a logarithm to the potential.
+            field.doubt *= T::of(0.75) * count.ln();
+        }
+        field.doubt += unseen;
         Ok(())
     }
 

@@ -2,6 +2,7 @@
 //! corners.
 
 use super::SignoriniCheck;
+use super::beside::{Beside, Verdict};
 use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
 use crate::quadrature::panels::{self, Rises};
 use crate::solution::BLIND;
@@ -469,46 +470,4 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let is_open = gap >= -(allowed + doubt) || !is_sound;
         Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
     }
-}
-
-/// Region between two contacts, or beyond the outermost ones.
-#[derive(Clone, Copy)]
-struct Beside<T> {
-    /// Number of the contact on its right.
-    next: usize,
-    room: Interval<T>,
-    /// Limit from which heights are counted.
-    edge: T,
-    /// Distances from the left and the right limit within which the gap opens by the pressure
-    /// inside.
-    near: [T; 2],
-    /// Distances from both within which nothing is known.
-    blind: [T; 2],
-    /// Height of the gap at this limit, its uncertainty, and the potential there.
-    height: T,
-    hidden: T,
-    taken: T,
-}
-
-impl<T: Real> Beside<T> {
-    /// Tells whether a place is closer to a corner that holds a limit than the limit is known.
-    fn is_blind(&self, x: T) -> bool {
-        x - self.room.left < self.blind[0] || self.room.right - x < self.blind[1]
-    }
-
-    /// Tells whether a place is so close to a limit that the pressure inside decides about the gap.
-    fn is_near(&self, x: T) -> bool {
-        x - self.room.left < self.near[0] || self.room.right - x < self.near[1]
-    }
-}
-
-/// Verdict on the gap between the loaded bodies.
-#[derive(Clone, Copy, PartialEq, Debug)]
-enum Verdict {
-    Apart,
-    /// Overlap, if any, within the uncertainty of the series of the pressures.
-    Unresolved,
-    /// Overlap, if any, within the uncertainty of the survey.
-    Hidden,
-    Overlap,
 }

@@ -48,9 +48,9 @@ const LEAST_OPEN: f64 = 0.9;
 /// Least ratio of shares d/L that are let go together.
 const TOGETHER: f64 = 0.01;
 
-/// Steps to d, and the relative error of the pressure it makes up for that ends them: a start.
-const MAX_STEPS: usize = 40;
-const MAX_ERROR: f64 = 0.02;
+/// Doublings of √d from its least value, and halvings of its logarithm after them: a start.
+const MAX_DOUBLINGS: usize = 40;
+const HALVINGS: usize = 5;
 
 /// Limit at a corner that holds it.
 struct Held<T> {
@@ -316,44 +316,26 @@ impl<T: Real> Search<'_, '_, '_, T> {
             .collect();
         let steepest = self.steepest_beyond(z, side, half * half_width)?;
         let most = self.wall_beyond(z, side, half * half_width).sqrt();
-        let mut share_at = |root: T| -> Result<T, ContactError<T>> {
+        let mut is_short = |root: T| -> Result<bool, ContactError<T>> {
             let away: Vec<T> =
                 nodes.iter().map(|&[u, _]| root * root * (T::one() - u * u)).collect();
             let rises = self.rise_beyond(z, side, &away)?;
             let both = rises.iter().zip(&nodes);
-            Ok(both.fold(T::zero(), |sum, (&rise, &[_, weight])| sum + weight * rise) * root / due)
+            let sum = both.fold(T::zero(), |sum, (&rise, &[_, weight])| sum + weight * rise);
+            Ok(sum * root < due)
         };
         // No wall is steeper: d is at least as large.
         let mut low = (due / (steepest + steepest)).min(most);
         let mut high = low;
-        let mut best = [T::zero(), low];
-        for _ in 0..MAX_STEPS {
-            let share = share_at(high)?;
-            if share > best[0] {
-                best = [share, high];
-            }
-            if (share - T::one()).abs() <= T::of(MAX_ERROR) {
-                return Ok(high * high);
-            }
-            if share > T::one() {
+        for _ in 0..MAX_DOUBLINGS {
+            if high >= most || !is_short(high)? {
                 break;
             }
-            if high >= most {
-                return Ok(best[1] * best[1]);
-            }
-            low = high;
-            high = (high + high).min(most);
+            (low, high) = (high, (high + high).min(most));
         }
-        if best[0] < T::one() {
-            return Ok(best[1] * best[1]);
-        }
-        for _ in 0..MAX_STEPS {
+        for _ in 0..HALVINGS {
             let root = (low * high).sqrt();
-            let share = share_at(root)?;
-            if (share - T::one()).abs() <= T::of(MAX_ERROR) {
-                return Ok(root * root);
-            }
-            if share < T::one() { low = root } else { high = root }
+            if is_short(root)? { low = root } else { high = root }
         }
         Ok(low * high)
     }

@@ -151,13 +151,10 @@ impl<T: Real> Several<T> {
     /// Adds the condition that a gap closes at both ends.
     fn close(&self, k: usize, system: &mut System<T>) {
         let (zero, pi) = (T::zero(), T::pi());
-        let [left, right] = [&self.parts[k], &self.parts[k + 1]];
-        let width = right.on.left - left.on.right;
         let (own, pole) = (self.weight.zero(k), self.weight.pole(k));
         let [mut closed, mut size, mut by_tilt, mut by_own] = [zero; 4];
         // The integrals ∫ S/p_k dx/(x - e) for the two limits at the ends.
         let mut by_ends = [zero; 2];
-        let is_free = [!self.held()[k].right, !self.held()[k + 1].left];
         let mut row = std::mem::take(&mut system.row);
         row.clear();
         row.resize(2 * system.poles.count(), zero);
@@ -168,7 +165,7 @@ impl<T: Real> Several<T> {
             size += share.abs() / pi;
             by_ends[0] += scale / from_left;
             by_ends[1] -= scale / to_right;
-            let away = own.map_or(T::one(), |own| x - own);
+            let away = own.map_or(T::one(), |(_, own)| x - own);
             let by_constants = -away * dx / (root * pi);
             if let Some(pole) = pole {
                 // Q vanishes there.
@@ -183,36 +180,51 @@ impl<T: Real> Several<T> {
                 None => by_tilt -= scale * system.polynomial.in_gap(k, x),
             }
         });
-        if own.is_some() {
-            let zero = self.weight.numbered().take_while(|&(gap, _)| gap < k).count();
+        if let Some((zero, _)) = own {
             row[system.poles.count() + zero] += by_own;
         }
         system.by_tilt.push(by_tilt);
+        self.compare_heights(k, [closed, size], by_ends, &mut row, system);
+        system.rows.extend_from_slice(&row);
+        system.row = row;
+    }
+
+    /// Adds the residual of a gap, divided as by its width, given the rise by the pressure, the size of
+    /// its terms, and the integrals for the limits at its ends.
+    fn compare_heights(
+        &self,
+        k: usize,
+        [closed, size]: [T; 2],
+        by_ends: [T; 2],
+        row: &mut [T],
+        system: &mut System<T>,
+    ) {
+        let [left, right] = [&self.parts[k], &self.parts[k + 1]];
+        let width = right.on.left - left.on.right;
+        let is_free = [!self.held()[k].right, !self.held()[k + 1].left];
         let [from, to] = [left.height(left.on.right), right.height(right.on.left)];
         let heights = left.height_size(from) + right.height_size(to);
         let rounding = T::of(4.0) * T::epsilon() * (heights + size);
         let open = closed - (to - from);
         // Term that dividing by w²/(w² + c²) adds to the derivatives, times that divisor.
-        let known = (open.abs() - rounding).max(zero) * open.signum();
+        let known = (open.abs() - rounding).max(T::zero()) * open.signum();
         let square = left.on.half_width().min(right.on.half_width()).powi(2);
         let by_width = (known + known) / width * square / (square + width * width);
-        let mut by_limits = zero;
+        let mut by_limits = T::zero();
         for (end, sign) in [(0, T::one()), (1, -T::one())].into_iter().filter(|e| is_free[e.0]) {
             let i = 2 * k + 1 + end;
-            let away = match (own, pole) {
-                (Some(own), _) => system.limits[i] - own,
+            let away = match (self.weight.zero(k), self.weight.pole(k)) {
+                (Some((_, zero)), _) => system.limits[i] - zero,
                 (_, Some(pole)) => T::one() / (system.limits[i] - pole),
                 _ => T::one(),
             };
-            by_limits += (system.at_ends[i] / away / (pi + pi) * by_ends[end]).abs();
+            by_limits += (system.at_ends[i] / away / T::two_pi() * by_ends[end]).abs();
             let share = -(by_width + by_width) / (system.slopes[i] * system.at_ends[i]);
-            system.poles.add(system.limits[i], sign * share, &mut row);
+            system.poles.add(system.limits[i], sign * share, row);
         }
         if is_free.contains(&true) && by_limits * width <= rounding {
             system.lost.get_or_insert(k);
         }
-        system.rows.extend_from_slice(&row);
-        system.row = row;
         system.add(open, rounding);
     }
 
@@ -263,9 +275,8 @@ impl<T: Real> Several<T> {
     /// Returns `V_k`, given the integrals of V: V minus its value at the zero of p in gap k, divided
     /// by the distance from that zero; V times the distance from a pole of p; or V itself.
     pub(super) fn without_zero(&self, k: usize, system: &System<T>, x: T, value: T) -> T {
-        if let Some(zero) = self.weight.zero(k) {
-            let before = self.weight.numbered().take_while(|&(gap, _)| gap < k).count();
-            return (value - system.residual[before]) / (x - zero);
+        if let Some((i, zero)) = self.weight.zero(k) {
+            return (value - system.residual[i]) / (x - zero);
         }
         let away = self.weight.pole(k).map_or(T::one(), |pole| x - pole);
         value * away + self.terms.in_gap(k, x)

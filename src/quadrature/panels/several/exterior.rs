@@ -56,7 +56,7 @@ impl<T: Real> Several<T> {
         }
         // At the zero itself the quotient is a derivative: take it at a place next to the zero.
         let aside = T::epsilon().sqrt() * width;
-        let is_at_zero = self.weight.zero(k).is_some_and(|zero| (x - zero).abs() < aside);
+        let is_at_zero = self.weight.zero(k).is_some_and(|(_, zero)| (x - zero).abs() < aside);
         let distance = if is_at_zero { distance + aside } else { distance };
         let without = self.without_zero(k, system, place(distance), value(distance));
         -self.weight.in_gap(k, x, distances) * without / T::pi()

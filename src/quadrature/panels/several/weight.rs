@@ -29,6 +29,8 @@ pub(super) struct Weight<T> {
     corners: usize,
     /// Zero or pole of p in each gap, if it has one.
     middles: Vec<Option<T>>,
+    /// Number of zeros or poles before each gap.
+    before: Vec<usize>,
     /// Flags: `w p` changes its sign an odd number of times to the right of a contact.
     flips: Vec<bool>,
 }
@@ -36,8 +38,8 @@ pub(super) struct Weight<T> {
 impl<T: Real> Weight<T> {
     pub fn new() -> Self {
         let (far, held) = (FarField::new(Combine::Product), Vec::new());
-        let (on, middles, flips) = (Vec::new(), Vec::new(), Vec::new());
-        Self { on, far, held, corners: 0, middles, flips }
+        let (on, middles, before, flips) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { on, far, held, corners: 0, middles, before, flips }
     }
 
     /// Sets the contacts, and the limits of each that are held.
@@ -80,10 +82,13 @@ impl<T: Real> Weight<T> {
         // Corners and zeros so far, less poles.
         let mut have = 0;
         self.middles.clear();
+        self.before.clear();
+        let all = needed;
         for k in 0..gaps {
             have += count(self.held[k]);
             let serves = may(&k);
             let wants = if inverse { have > k + 1 } else { have < k + 1 };
+            self.before.push(all - needed);
             let takes = serves && needed > 0 && (wants || needed == places);
             places -= usize::from(serves);
             if takes {
@@ -126,9 +131,9 @@ impl<T: Real> Weight<T> {
         &self.middles
     }
 
-    /// Returns the zero of p in a gap.
-    pub fn zero(&self, k: usize) -> Option<T> {
-        self.middles[k].filter(|_| !self.is_inverse())
+    /// Returns the zero of p in a gap, and its number.
+    pub fn zero(&self, k: usize) -> Option<(usize, T)> {
+        self.middles[k].filter(|_| !self.is_inverse()).map(|zero| (self.before[k], zero))
     }
 
     /// Returns the number of poles of p.

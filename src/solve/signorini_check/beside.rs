@@ -1,0 +1,45 @@
+//! Regions next to contacts, and what is known of the gap there.
+
+use crate::{Interval, Real};
+
+/// Region between two contacts, or beyond the outermost ones.
+#[derive(Clone, Copy)]
+pub(super) struct Beside<T> {
+    /// Number of the contact on its right.
+    pub next: usize,
+    pub room: Interval<T>,
+    /// Limit from which heights are counted.
+    pub edge: T,
+    /// Distances from the left and the right limit within which the gap opens by the pressure
+    /// inside.
+    pub near: [T; 2],
+    /// Distances from both within which nothing is known.
+    pub blind: [T; 2],
+    /// Height of the gap at this limit, its uncertainty, and the potential there.
+    pub height: T,
+    pub hidden: T,
+    pub taken: T,
+}
+
+impl<T: Real> Beside<T> {
+    /// Tells whether a place is closer to a corner that holds a limit than the limit is known.
+    pub fn is_blind(&self, x: T) -> bool {
+        x - self.room.left < self.blind[0] || self.room.right - x < self.blind[1]
+    }
+
+    /// Tells whether a place is so close to a limit that the pressure inside decides about the gap.
+    pub fn is_near(&self, x: T) -> bool {
+        x - self.room.left < self.near[0] || self.room.right - x < self.near[1]
+    }
+}
+
+/// Verdict on the gap between the loaded bodies.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Verdict {
+    Apart,
+    /// Overlap, if any, within the uncertainty of the series of the pressures.
+    Unresolved,
+    /// Overlap, if any, within the uncertainty of the survey.
+    Hidden,
+    Overlap,
+}
