@@ -40,8 +40,8 @@ impl<'s, T: Real> Solved<'s, T> {
         })
     }
 
-    /// Lists the limits that are not free, from right to left: the contact, the side and the strength
-    /// of the singularity.
+    /// Lists the limits that are not free, from right to left: the contact, the side and the
+    /// strength of the singularity.
     pub fn held_limits(&self) -> impl Iterator<Item = (usize, Side, T)> {
         let limits =
             (0..self.contacts().len()).rev().flat_map(|i| [(i, Side::Right), (i, Side::Left)]);

@@ -147,8 +147,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(is_finer)
     }
 
-    /// Adds to the uncertainty of a series what a corner just inside a limit does: the pressure falls
-    /// there from that of a held limit, like a logarithm.
+    /// Adds to the uncertainty of a series what a corner just inside a limit does: the pressure
+    /// falls there from that of a held limit, like a logarithm.
     fn doubt_at_corners(&self, field: &mut ExteriorField<T>) -> Result<(), ContactError<T>> {
         let (on, count) = (field.on, T::count(field.coefficients().len()));
         // Place i lies (2 i + 1)² times as far from the limit as the first.

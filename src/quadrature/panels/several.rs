@@ -19,9 +19,10 @@
 //! ```
 //!
 //! with h the height of the gap between the bodies. There are as many conditions as free limits,
-//! two per contact without corners. With more corners than contacts V has further [terms](terms), which
-//! bear the load and close the gaps between corners. A limit e acts on each through `V(e)`, taken without its infinite part
-//! (Hadamard's finite part), up to terms that vanish with the other conditions:
+//! two per contact without corners. With more corners than contacts V has further [terms](terms),
+//! which bear the load and close the gaps between corners. A limit e acts on each through `V(e)`,
+//! taken without its infinite part (Hadamard's finite part), up to terms that vanish with the other
+//! conditions:
 //!
 //! ```text
 //! of V(ν):      V(e)/(2 (e - ν))

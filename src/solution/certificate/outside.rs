@@ -46,8 +46,9 @@ pub(super) struct OutsideOf<'o, T: Real> {
     side: Side,
     /// True if Φ falls outward.
     falls: bool,
-    /// Distance up to which nothing is proved: at a corner that holds the limit in place of one just
-    /// beyond it, the bodies overlap up to 16/π² of the distance between the two, beyond a jump.
+    /// Distance up to which nothing is proved: at a corner that holds the limit in place of one
+    /// just beyond it, the bodies overlap up to 16/π² of the distance between the two, beyond a
+    /// jump.
     blind: T,
     /// Height of the gap at `y`; `pending` is the height that the slopes of the bodies have added
     /// since.

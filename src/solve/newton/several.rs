@@ -32,8 +32,8 @@ const MAX_CUT: i32 = 9;
 /// of a trial.
 const LAST_TRIAL: f64 = 0.02;
 
-/// Least share of the root of a distance from a corner that a step leaves, and the reciprocal of the
-/// largest.
+/// Least share of the root of a distance from a corner that a step leaves, and the reciprocal of
+/// the largest.
 const LEAST_ROOT: f64 = 0.25;
 
 /// Least number of contacts for a trial: with few it saves little, and a tiny contact that was just
@@ -254,8 +254,8 @@ impl<T: Real> NewtonSeveral<T> {
         Some(self.on[i / 2][side] - corner)
     }
 
-    /// Returns the move of a limit for a step. Beyond a corner the pressure is linear in the root of
-    /// the distance from it.
+    /// Returns the move of a limit for a step. Beyond a corner the pressure is linear in the root
+    /// of the distance from it.
     fn move_beyond_corner(&self, i: usize, step: T) -> T {
         let Some(distance) = self.distance_beyond(i) else { return step };
         let share = T::one() + T::of(0.5) * step / distance;

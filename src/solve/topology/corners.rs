@@ -10,10 +10,10 @@
 //! | free, next to a corner | held there |
 //! | held, K < 0 | let go inward, the lowest first |
 //! | held, K > 0, inside the bodies | put beyond the corner by d, the furthest first |
-//! | held, K > 0, d/L less than the rounding of x over d | held: d is the error of the limit, up to higher orders half of what is said |
+//! | held, K > 0, d/L less than the rounding of x over d | held: d is the error of the limit |
 //!
-//! The last two are one contact. It ends where the slope s outside, above that at z, makes up for the
-//! pressure of the held one, to first order in d/L:
+//! The last two are one contact. It ends where the slope s outside, above that at z, makes up for
+//! the pressure of the held one, to first order in d/L:
 //!
 //! ```text
 //! π² K'/κ = ∫ s(t) dt/√(d - t) from 0 to d,      for a jump j  d = (π² K'/(2 κ j))²
@@ -110,8 +110,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(())
     }
 
-    /// Returns the corner inside the bodies next to a limit of a contact, if there is one. `mean` is
-    /// `F/(κ L)`.
+    /// Returns the corner inside the bodies next to a limit of a contact, if there is one. `mean`
+    /// is `F/(κ L)`.
     fn corner_next_to(
         &mut self,
         on: Interval<T>,
@@ -155,8 +155,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(false)
     }
 
-    /// Tells whether the gap opens so steeply beyond a breakpoint that a limit next to it depends on
-    /// it. `mean` is `F/(κ L)`.
+    /// Tells whether the gap opens so steeply beyond a breakpoint that a limit next to it depends
+    /// on it. `mean` is `F/(κ L)`.
     fn is_sharp(
         &mut self,
         z: T,
@@ -298,8 +298,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
             .collect()
     }
 
-    /// Returns the distance d beyond a corner at which the contact ends, given the strength with the
-    /// limit held there.
+    /// Returns the distance d beyond a corner at which the contact ends, given the strength with
+    /// the limit held there.
     fn beyond(
         &mut self,
         z: T,

@@ -189,8 +189,8 @@ impl<T: Real> Several<T> {
         system.row = row;
     }
 
-    /// Adds the residual of a gap, divided as by its width, given the rise by the pressure, the size of
-    /// its terms, and the integrals for the limits at its ends.
+    /// Adds the residual of a gap, divided as by its width, given the rise by the pressure, the
+    /// size of its terms, and the integrals for the limits at its ends.
     fn compare_heights(
         &self,
         k: usize,
@@ -272,8 +272,8 @@ impl<T: Real> Several<T> {
         }
     }
 
-    /// Returns `V_k`, given the integrals of V: V minus its value at the zero of p in gap k, divided
-    /// by the distance from that zero; V times the distance from a pole of p; or V itself.
+    /// Returns `V_k`, given the integrals of V: V minus its value at the zero of p in gap k,
+    /// divided by the distance from that zero; V times the distance from a pole of p; or V itself.
     pub(super) fn without_zero(&self, k: usize, system: &System<T>, x: T, value: T) -> T {
         if let Some((i, zero)) = self.weight.zero(k) {
             return (value - system.residual[i]) / (x - zero);
@@ -341,7 +341,8 @@ impl<T: Real> Several<T> {
     /// Adds one unknown, the tilt of the bodies, and one condition: the load acts at a given place.
     ///
     /// ```text
-    /// M = (1/π) ∫ w p q (x - x₀) g ds - ρ₁ F = 0,   with more corners than contacts (1/π) ∫ w p g ds + Σ c - ρ₁ F
+    /// M = (1/π) ∫ w p q (x - x₀) g ds - ρ₁ F = 0
+    /// with more corners than contacts (1/π) ∫ w p g ds + Σ c - ρ₁ F
     /// by a limit e: (e - x₀)² V(e)/2π, with corners (e - x₀) V(e)/2π, with more V(e)/2π
     /// ```
     ///

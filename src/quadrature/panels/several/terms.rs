@@ -7,8 +7,8 @@ use nalgebra::Complex;
 
 /// Sum of a linear function and of poles in gaps.
 ///
-/// With more corners than contacts V has the terms `-π (F + Σ c/(x - ν))` over the poles ν of p: one
-/// over p times a polynomial whose leading coefficient is `-π F`.
+/// With more corners than contacts V has the terms `-π (F + Σ c/(x - ν))` over the poles ν of p:
+/// one over p times a polynomial whose leading coefficient is `-π F`.
 #[derive(Clone, Debug)]
 pub(in super::super) struct Terms<T> {
     /// Place about which the linear function is written, its value there, and its slope.
@@ -34,8 +34,8 @@ impl<T: Real> Terms<T> {
         own.map_or(self.at(x), |&(_, pole, residue)| self.beside(k, x) * (x - pole) + residue)
     }
 
-    /// Returns the sum times a width and its derivative at a place in the plane, given the distances
-    /// from it in widths.
+    /// Returns the sum times a width and its derivative at a place in the plane, given the
+    /// distances from it in widths.
     pub fn in_plane(&self, place: &impl Fn(T) -> Complex<T>, width: T) -> [Complex<T>; 2] {
         let zero = Complex::new(T::zero(), T::zero());
         let start = [Complex::new(self.by_power[0] * width, T::zero()), zero];

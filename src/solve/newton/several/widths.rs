@@ -72,11 +72,12 @@ impl<T: Real> NewtonSeveral<T> {
             let correction = next - (width + change);
             // Both limits share the correction, but a narrow neighbour has no room for it, and a
             // corner stays.
-            let room = |limit: usize, beside: Option<Width>| match beside {
-                _ if !self.moves_freely(limit) => zero,
-                _ if let Some(distance) = self.distance_beyond(limit) => width.min(distance.abs()),
-                Some(beside) => width.min(self.width(beside)),
-                None => width,
+            let room = |limit: usize, beside: Option<Width>| {
+                if !self.moves_freely(limit) {
+                    return zero;
+                }
+                let beside = beside.map_or(width, |beside| width.min(self.width(beside)));
+                self.distance_beyond(limit).map_or(beside, |distance| width.min(distance.abs()))
             };
             let left = room(i, i.checked_sub(1));
             let right = room(i + 1, (i + 2 < count).then_some(i + 1));
