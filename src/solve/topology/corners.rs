@@ -250,11 +250,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 continue;
             }
             let half_width = self.work.workspace.newton.on[contact].half_width();
-            let d = self.beyond(z, side, strength, half_width)?;
+            // A wall that does not make up for the pressure is no corner.
+            let as_before = outward::<T>(side) * (self.work.workspace.before[contact][side] - z);
+            let d = self.beyond(z, side, strength, half_width)?.unwrap_or(as_before);
             // The rounding of x changes the pressure by a share ε x/(2 d).
             let rounding = T::epsilon() * z.abs().max(half_width);
-            if d > (rounding * half_width).sqrt() {
-                beyond.push(((contact, side, z), d, d / half_width));
+            if d.abs() > (rounding * half_width).sqrt() {
+                beyond.push(((contact, side, z), d, d.abs() / half_width));
             } else {
                 error = error.max((d + d) / half_width);
             }
@@ -299,14 +301,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Returns the distance d beyond a corner at which the contact ends, given the strength with
-    /// the limit held there.
+    /// the limit held there; `None` if the wall beyond is too low.
     fn beyond(
         &mut self,
         z: T,
         side: Side,
         strength: T,
         half_width: T,
-    ) -> Result<T, ContactError<T>> {
+    ) -> Result<Option<T>, ContactError<T>> {
         let rule = GaussLegendre::coarsest();
         let half = T::of(0.5);
         let due = T::pi() * T::pi() * strength * (half * half_width).sqrt() / self.contact.kappa;
@@ -316,28 +318,32 @@ impl<T: Real> Search<'_, '_, '_, T> {
             .collect();
         let steepest = self.steepest_beyond(z, side, half * half_width)?;
         let most = self.wall_beyond(z, side, half * half_width).sqrt();
-        let mut is_short = |root: T| -> Result<bool, ContactError<T>> {
+        let mut share_at = |root: T| -> Result<T, ContactError<T>> {
             let away: Vec<T> =
                 nodes.iter().map(|&[u, _]| root * root * (T::one() - u * u)).collect();
             let rises = self.rise_beyond(z, side, &away)?;
             let both = rises.iter().zip(&nodes);
             let sum = both.fold(T::zero(), |sum, (&rise, &[_, weight])| sum + weight * rise);
-            Ok(sum * root < due)
+            Ok(sum * root / due)
         };
         // No wall is steeper: d is at least as large.
         let mut low = (due / (steepest + steepest)).min(most);
-        let mut high = low;
+        let (mut high, mut before) = (low, T::zero());
         for _ in 0..MAX_DOUBLINGS {
-            if high >= most || !is_short(high)? {
+            let share = share_at(high)?;
+            if high >= most || share >= T::one() {
                 break;
             }
-            (low, high) = (high, (high + high).min(most));
+            if share < before {
+                return Ok(None);
+            }
+            (low, high, before) = (high, (high + high).min(most), share);
         }
         for _ in 0..HALVINGS {
             let root = (low * high).sqrt();
-            if is_short(root)? { low = root } else { high = root }
+            if share_at(root)? < T::one() { low = root } else { high = root }
         }
-        Ok(low * high)
+        Ok(Some(low * high))
     }
 }
 
