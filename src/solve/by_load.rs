@@ -4,7 +4,8 @@
 //! ln q over ln F finds the load, between loads that are too small and too large; for a power law
 //! it takes one step. Each trial is a solve by load, and its samples serve the next. A quantity may
 //! jump: the half-width when a contact is born outside the others, the peak when a corner is
-//! reached. A value inside a jump has no load.
+//! reached. A value inside a jump has no load. Between such loads a step that is not less than half
+//! of the last but one gives way to the middle, so that the loads close in (Brent's rule).
 //!
 //! A quantity that may fall can have a value under several loads. The one sought lies on the branch
 //! from first touch, where the quantity rises: a load under which it falls is too large. It is
@@ -21,9 +22,10 @@ use super::capacity::Capacity;
 use super::edges::{Conditions, Given};
 use super::{Contact, Work, check_positive, topology};
 use crate::gap::Asked;
+use crate::quadrature::panels;
 use crate::search::SearchError;
 use crate::solution::{ContactState, Report, Solved};
-use crate::{ContactError, Ends, Interval, Real, SolveError};
+use crate::{ContactError, Ends, EvaluationError, Interval, Real, SolveError};
 pub(super) use approach::ByApproach;
 pub(super) use half_width::HalfWidth;
 pub(super) use peak::Peak;
@@ -103,6 +105,8 @@ pub(super) struct ByLoad<'s, 'w, T: Real> {
     /// Loads that are too small and too large.
     low: Option<Point<T>>,
     high: Option<Point<T>>,
+    /// Last two steps between such loads, as logarithms.
+    steps: [T; 2],
     /// Reason why a load is too large or too small, if it is not the quantity.
     fault: Option<ContactError<T>>,
 }
@@ -116,7 +120,8 @@ pub(super) fn find<T: Real>(
 ) -> Result<ContactState<T>, ContactError<T>> {
     check_positive(name, wanted)?;
     let (follows, low, high, fault) = (quantity.may_fall(contact), None, None, None);
-    ByLoad { contact, quantity, name, wanted, work, follows, low, high, fault }.run()
+    let steps = [T::one() / T::zero(); 2];
+    ByLoad { contact, quantity, name, wanted, work, follows, low, high, steps, fault }.run()
 }
 
 impl<T: Real> ByLoad<'_, '_, T> {
@@ -165,7 +170,7 @@ impl<T: Real> ByLoad<'_, '_, T> {
                 },
             };
             *(if at.value < self.wanted { &mut self.low } else { &mut self.high }) = Some(at);
-            load = self.inside(self.next(at));
+            load = self.inside(self.next(at), at.load);
             let is_closed = match (self.low, self.high) {
                 (Some(low), Some(high)) => high.load <= low.load * (T::one() + T::epsilon().sqrt()),
                 _ => load > first * T::of(MAX_FACTOR) || load < first / T::of(MAX_FACTOR),
@@ -180,11 +185,18 @@ impl<T: Real> ByLoad<'_, '_, T> {
     }
 
     /// Returns this load, or one between the known ones if it is known to be too small or too
-    /// large.
-    fn inside(&self, load: T) -> T {
+    /// large, or if the steps from the `last` load do not become shorter.
+    fn inside(&mut self, load: T, last: T) -> T {
         let step = T::of(MAX_STEP);
         match [self.low, self.high].map(|end| end.map(|end| end.load)) {
-            [Some(low), Some(high)] if !(load > low && load < high) => low.sqrt() * high.sqrt(),
+            [Some(low), Some(high)] => {
+                let length = |load: T| (load / last).ln().abs();
+                let is_short = length(load) < T::of(0.5) * self.steps[0];
+                let is_inside = load > low && load < high;
+                let load = if is_inside && is_short { load } else { low.sqrt() * high.sqrt() };
+                self.steps = [self.steps[1], length(load)];
+                load
+            }
             [Some(low), None] if load <= low => low * step,
             [None, Some(high)] if load >= high || self.follows => high / step,
             _ => load,
@@ -214,9 +226,19 @@ impl<T: Real> ByLoad<'_, '_, T> {
     /// Finds the contact under a load, and the quantity: if that is followed, under a load up to
     /// which it rises.
     fn at(&mut self, mut load: T) -> Result<(ContactState<T>, Point<T>), ContactError<T>> {
+        let mut is_aside = false;
         loop {
             let found = self.solve(self.contact.under(load)?)?;
-            let [value, rate, doubt] = self.quantity.at(&found, self)?;
+            let [value, rate, doubt] = match self.quantity.at(&found, self) {
+                // Two contacts are about to merge: under a slightly larger load they are one.
+                Err(ContactError::Evaluation(EvaluationError::NoLoadDerivative { .. }))
+                    if panels::several(self.work.integrator).is_some() && !is_aside =>
+                {
+                    (load, is_aside) = (load * T::of(LEAST_STEP), true);
+                    continue;
+                }
+                known => known?,
+            };
             let at = Point { load, value, rate };
             let low = self.low.filter(|low| self.follows && low.load < load);
             let is_close = |low: &Point<T>| load <= low.load * T::of(LEAST_STEP);

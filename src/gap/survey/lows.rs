@@ -198,21 +198,27 @@ impl<T: Real> Survey<T> {
         segment.at(t.max(T::zero()).min(T::one()))
     }
 
-    /// Returns the approximate load for a prescribed quantity, as F/κ.
+    /// Returns the approximate load for a prescribed quantity, as F/κ: of a round body the gap at
+    /// the limits of the contact, above the lowest. On unlike sides of the lowest gap it lies on
+    /// the flatter one.
     pub fn load_of(&self, asked: Asked<T>) -> T {
+        let borne = |half_width: T| {
+            let Interval { left, right } = self.level(half_width);
+            self.height(left).min(self.height(right)) - self.height(self.lowest)
+        };
         match asked {
             Asked::Load(load) | Asked::Turning(load) => load,
-            Asked::HalfWidth(half_width) => self.borne(half_width),
+            Asked::HalfWidth(half_width) => borne(half_width),
             Asked::Peak(pressure) => {
                 // P = 2 F/(π L) of a round body.
                 let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
-                let mut load = self.borne(reach);
+                let mut load = borne(reach);
                 for _ in 0..MAX_HALVES {
                     if T::of(2.0) * load <= T::pi() * reach * pressure {
                         break;
                     }
                     reach *= T::of(0.5);
-                    load = self.borne(reach);
+                    load = borne(reach);
                 }
                 load
             }
