@@ -42,9 +42,9 @@ pub(super) fn along<T: Real>([from, to]: [T; 2]) -> String {
     if from < to { format!("from x = {}", span(from, to)) } else { format!("at x = {}", six(from)) }
 }
 
-/// Remedy where the contact found is not the whole contact.
-pub(super) const SEVERAL: &str = "where several may touch, give the load (for a half-width, a peak, adhesion or single_interval \
-    only one is sought); or change it a little, declare kinks as breakpoints, smooth measured points (Fit::smooth)";
+/// Remedy where the contact found is not the whole contact, whatever is given.
+pub(super) const SEVERAL: &str = "change what is given a little, declare kinks as breakpoints, smooth measured points \
+    (Fit::smooth); with adhesion, single_interval, or a search or quadrature of your own only one contact is sought";
 
 /// Returns the remedy for a negative pressure.
 pub(super) fn how_to_press<T: Real>(pressure: T) -> &'static str {

@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common;
-use common::{Counting, Profile, graph};
+use common::{Counting, Profile, Shares, graph, join};
 use linecontact::profile::{Involute, Parabola, Placed, Placement, rounded_punch, wedge};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Side, SolveError,
@@ -376,4 +376,188 @@ fn a_peak_that_a_flank_does_not_bear() {
     assert!(half_width < 1e-10 && found < 1e-6, "{half_width:e}, {found:e}");
     let (half, answer) = evaluations(flank(), Control::PeakPressure(0.5 * found));
     assert!(answer.is_ok() && calls <= 20 * half, "{calls}, {half}: {answer:?}");
+}
+
+/// Pieces of a slope that rises piecewise linearly: `[from, slope there, its rate]`.
+type Slopes = Vec<[f64; 3]>;
+
+/// Returns `∫ g' dθ` and `∫ g' cos θ dθ` over a contact, θ from its right limit.
+fn sums(pieces: &[[f64; 3]], [left, right]: [f64; 2]) -> [f64; 2] {
+    let [centre, half] = [0.5 * (left + right), 0.5 * (right - left)];
+    let angle =
+        |x: f64| 2.0 * (right - x).max(0.0).sqrt().atan2((x.min(right) - left).max(0.0).sqrt());
+    let mut sums = [0.0; 2];
+    for (i, &[from, slope, rate]) in pieces.iter().enumerate() {
+        let to = pieces.get(i + 1).map_or(f64::INFINITY, |next| next[0]);
+        let [high, low] = [from, to].map(angle);
+        let at_centre = slope + rate * (centre - from);
+        let sine = high.sin() - low.sin();
+        let double = 0.25 * ((2.0 * high).sin() - (2.0 * low).sin());
+        sums[0] += at_centre * (high - low) + rate * half * sine;
+        sums[1] += at_centre * sine + rate * half * (0.5 * (high - low) + double);
+    }
+    sums
+}
+
+/// Returns the slopes of convex pieces that begin at some places, up to an end.
+fn convex(shares: &mut Shares, mut slope: f64, xs: &[f64], end: f64) -> Slopes {
+    let mut pieces = Slopes::new();
+    for (i, &from) in xs.iter().enumerate() {
+        let to = xs.get(i + 1).copied().unwrap_or(end);
+        let mut some = || {
+            let is_some = shares.between(0.0, 1.0) < 0.6;
+            if is_some { shares.power_of_ten(-4.0, 0.0) } else { 0.0 }
+        };
+        let [jump, rate] = [some(), some()];
+        slope += if i == 0 { 0.0 } else { jump };
+        pieces.push([from, slope, rate]);
+        slope += rate * (to - from);
+    }
+    pieces
+}
+
+/// Returns the body with these slopes up to an end, or its mirror image.
+fn body(pieces: &[[f64; 3]], end: f64, sign: f64) -> Vec<Profile> {
+    let mut bodies: Vec<Profile> = Vec::new();
+    let mut height = 0.0;
+    for (i, &[from, slope, rate]) in pieces.iter().enumerate() {
+        let to = pieces.get(i + 1).map_or(end, |next| next[0]);
+        let h = height;
+        let at = move |x: f64| {
+            let d = sign * x - from;
+            [h + d * (slope + 0.5 * rate * d), sign * (slope + rate * d)]
+        };
+        height = at(sign * to)[0];
+        bodies.push(if sign > 0.0 { graph(from, to, at) } else { graph(-to, -from, at) });
+    }
+    if sign < 0.0 {
+        bodies.reverse();
+    }
+    bodies
+}
+
+/// Returns a convex chain of lines and parabolas from -1 to 1, and the load that it bears, κ = 1.
+fn chain(shares: &mut Shares) -> (Profile, f64) {
+    let count = 2 + shares.between(0.0, 6.0) as usize;
+    let mut xs: Vec<f64> = (1..count).map(|_| shares.between(-0.95, 0.95)).collect();
+    xs.sort_by(f64::total_cmp);
+    xs.insert(0, -1.0);
+    let slope = -shares.power_of_ten(-3.0, 0.0);
+    let pieces = convex(shares, slope, &xs, 1.0);
+    let shift = |on: [f64; 2]| sums(&pieces, on)[0];
+    // The contact reaches the end towards which that of the whole body would move.
+    let is_right = shift([-1.0, 1.0]) < 0.0;
+    let on = |x: f64| if is_right { [x, 1.0] } else { [-1.0, x] };
+    let ends = if is_right { [-1.0, 1.0] } else { [1.0, -1.0] };
+    let on = on(root(ends, |x| (shift(on(x)) < 0.0) == is_right));
+    (join(body(&pieces, 1.0, 1.0)), 0.5 * (on[1] - on[0]) / PI * sums(&pieces, on)[1])
+}
+
+/// Returns the place up to which something holds, from the first end to the other.
+fn root([mut from, mut to]: [f64; 2], holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (from + to);
+        *(if holds(middle) { &mut from } else { &mut to }) = middle;
+    }
+    from
+}
+
+/// Returns two equal ridges or blunt crests, at a distance from x = 0.
+fn crests(shares: &mut Shares) -> (Profile, f64) {
+    let (inner, end) = (shares.power_of_ten(-1.5, 0.0), shares.between(1.2, 3.0));
+    let pieces = if shares.between(0.0, 1.0) < 0.5 {
+        vec![[0.0, -inner, 0.0], [1.0, shares.power_of_ten(-3.0, -0.5), 0.0]]
+    } else {
+        let first = shares.between(0.5, 1.0);
+        convex(shares, -inner, &[0.0, first, 1.0], end)
+    };
+    pair(&pieces, end)
+}
+
+/// Returns a body and its mirror image, and the load that they bear in one contact each, κ = 1. In
+/// u = x² they are one contact on the slope g'(x)/x.
+fn pair(pieces: &[[f64; 3]], end: f64) -> (Profile, f64) {
+    // In angles, between the breakpoints, by Gauss's rule of five points on 40 cells.
+    let sums = |from: f64| {
+        let [centre, half] = [0.5 * (end * end + from), 0.5 * (end * end - from)];
+        let angle =
+            |u: f64| 2.0 * (end * end - u).max(0.0).sqrt().atan2((u - from).max(0.0).sqrt());
+        let mut cuts: Vec<f64> = pieces.iter().map(|piece| piece[0] * piece[0]).collect();
+        cuts.retain(|&u| u > from);
+        cuts.insert(0, from);
+        cuts.push(end * end);
+        let mut sums = [0.0; 2];
+        for on in cuts.windows(2) {
+            let [low, high] = [angle(on[1]), angle(on[0])];
+            let step = (high - low) / 40.0;
+            let middle = (0.5 * (on[0] + on[1])).sqrt();
+            let piece = pieces.iter().rev().find(|piece| piece[0] <= middle).unwrap();
+            for cell in 0..40 {
+                for (t, weight) in [
+                    (0.0, 128.0 / 225.0),
+                    (-0.538_469_310_105_683, 0.478_628_670_499_366_5),
+                    (0.538_469_310_105_683, 0.478_628_670_499_366_5),
+                    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+                    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+                ] {
+                    let theta: f64 = low + step * (f64::from(cell) + 0.5 + 0.5 * t);
+                    let x = (centre + half * theta.cos()).sqrt();
+                    let slope = piece[1] + piece[2] * (x - piece[0]);
+                    let part = 0.5 * step * weight * slope / x;
+                    sums[0] += part;
+                    sums[1] += part * theta.cos();
+                }
+            }
+        }
+        sums
+    };
+    let from = root([end * end, 0.0], |u| sums(u)[0] > 0.0);
+    // Nearer to each other than a tenth, the cells above do not resolve the slope in between.
+    let is_known = from.sqrt() > 0.1;
+    let bears = if is_known { 0.5 * (end * end - from) / PI * sums(from)[1] } else { 0.0 };
+    let halves = [-1.0, 1.0].map(|sign| body(pieces, end, sign));
+    (join(halves.into_iter().flatten().collect()), bears)
+}
+
+/// Ridges of slopes 0.0015 and 0.4 took 22 s, and then had no equilibrium.
+#[test]
+fn two_sharp_ridges_are_refused_with_what_they_bear() {
+    let (body, bears) = pair(&[[0.0, -0.4, 0.0], [1.0, 0.0015, 0.0]], 2.0);
+    let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(1e5);
+    let [carried, ..] = self::bears(&contact, Control::Load(210.0));
+    assert!((carried / (bears * PI / 2.0 * 1e5) - 1.0).abs() < 1e-9, "{carried} {bears}");
+}
+
+/// What chains and pairs of ridges bear, by closed forms.
+#[test]
+fn chains_and_ridges_bear_what_their_closed_forms_say() {
+    let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(100);
+    let (mut faults, mut judged, mut slowest) = (Vec::new(), 0, 0.0f64);
+    for seed in 0..count {
+        let mut shares = Shares(seed + 1);
+        (0..3).for_each(|_| _ = shares.between(0.0, 1.0));
+        let (body, bears) = if seed % 2 == 0 { chain(&mut shares) } else { crests(&mut shares) };
+        // Bodies that touch first at an end, and ridges about to unite, bear another load.
+        if bears < 1e-6 {
+            continue;
+        }
+        judged += 1;
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let clock = std::time::Instant::now();
+        let mut fail = |what: String| faults.push(format!("{seed}, {bears}: {what}"));
+        if let Err(error) = contact.solve(Control::Load(0.5 * bears)) {
+            fail(format!("half of it: {error}"));
+        }
+        let load = bears * (1.0 + shares.power_of_ten(-3.0, 4.0));
+        match contact.solve(Control::Load(load)).map(|found| found.load()) {
+            Err(ContactError::Solve(SolveError::DomainTooShort { carried, .. }))
+                if (carried / bears - 1.0).abs() < 1e-9 => {}
+            other => fail(format!("{load}: {other:?}")),
+        }
+        let taken = clock.elapsed().as_secs_f64();
+        slowest = slowest.max(taken);
+    }
+    println!("{judged} bodies, the slowest in {slowest} s");
+    assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
+    assert!(judged > 50 && slowest < 5.0, "{judged} {slowest}");
 }
