@@ -210,11 +210,12 @@ impl<T: Real> Survey<T> {
             Asked::Load(load) | Asked::Turning(load) => load,
             Asked::HalfWidth(half_width) => borne(half_width),
             Asked::Peak(pressure) => {
-                // P = 2 F/(π L) of a round body.
+                // P = 2 F/(π L) of a round body; the widest contact may have less.
+                let hertz = |reach: T| T::frac_pi_2() * reach * pressure;
                 let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
-                let mut load = borne(reach);
+                let mut load = hertz(reach);
                 for _ in 0..MAX_HALVES {
-                    if T::of(2.0) * load <= T::pi() * reach * pressure {
+                    if borne(reach) <= hertz(reach) {
                         break;
                     }
                     reach *= T::of(0.5);
