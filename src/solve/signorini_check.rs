@@ -45,6 +45,10 @@ const MOST_BELOW: f64 = 8.0;
 /// the pressure.
 const BESIDE: f64 = 0.1;
 
+/// Error of this parabola at a minimum, as a share of the fall to it, if no pressure at a vertex
+/// shows it.
+const ASKEW: f64 = 0.01;
+
 /// Largest number of steps to a minimum of the pressure between the places evaluated.
 const MAX_STEPS: usize = 4;
 
@@ -229,12 +233,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
             seen.sort_by(|one, other| by_size(one[0], other[0]));
             seen.iter().for_each(|&[x, pressure]| meet(x, pressure, allowed));
             // Between these places, at the vertex of the parabola through each minimum and its
-            // neighbours.
+            // neighbours, and through places nearer and nearer to it: the parabola may be as wrong
+            // about the minimum as about the pressure at its vertex.
             for near in seen.windows(3) {
                 let (mut x, mut p) = ([0, 1, 2].map(|i| near[i][0]), [0, 1, 2].map(|i| near[i][1]));
                 if !(p[1] <= p[0] && p[1] <= p[2]) || self.is_pressed(x[1]) {
                     continue;
                 }
+                let mut wrong = T::of(ASKEW) * (p[0].min(p[2]) - p[1]);
                 for _ in 0..MAX_STEPS {
                     let [one, two] = [x[1] - x[0], x[2] - x[1]];
                     let [fall, rise] = [(p[1] - p[0]) / one, (p[2] - p[1]) / two];
@@ -243,18 +249,15 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     let vertex = x[1] - T::of(0.5) * slope / bend;
                     let below = p[1] - T::of(0.25) * slope * slope / bend;
                     // A minimum far above zero needs no closer look.
-                    let is_near = p[1] < T::of(MOST_BELOW) * (p[1] - below);
+                    let is_near = p[1] < T::of(MOST_BELOW) * (p[1] - below).max(wrong);
                     if !(is_near && vertex > x[0] && vertex < x[2]) || vertex == x[1] {
                         break;
                     }
-                    let mut pressure = [T::zero()];
-                    self.pressures(&[vertex], &mut pressure)?;
-                    meet(vertex, pressure[0], allowed);
-                    (x, p) = if vertex < x[1] {
-                        ([x[0], vertex, x[1]], [p[0], pressure[0], p[1]])
-                    } else {
-                        ([x[1], vertex, x[2]], [p[1], pressure[0], p[2]])
-                    };
+                    let aside = T::of(0.25) * (vertex - x[0]).min(x[2] - vertex);
+                    x = [vertex - aside, vertex, vertex + aside];
+                    self.pressures(&x, &mut p)?;
+                    x.iter().zip(p).for_each(|(&x, pressure)| meet(x, pressure, allowed));
+                    wrong = (p[1] - below).abs();
                 }
             }
         }
