@@ -213,7 +213,7 @@ impl<T: Real> Survey<T> {
                 // P = 2 F/(π L) of a round body; the widest contact may have less.
                 let hertz = |reach: T| T::frac_pi_2() * reach * pressure;
                 let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
-                let mut load = hertz(reach);
+                let mut load = self.borne(reach);
                 for _ in 0..MAX_HALVES {
                     if borne(reach) <= hertz(reach) {
                         break;
