@@ -227,9 +227,9 @@ fn tail<T: Real>(q: &[T], free: Ends<bool>) -> T {
     T::of(4.0) * T::pi() * last + beside
 }
 
-/// Returns the coefficients of a cosine series from its values, [`POINTS`] times a power of two. The
-/// even ones belong to half as many values, the means of those at θ and π - θ; so do the sums of
-/// two odd ones that follow each other, by the products of half their differences with 2 cos θ.
+/// Returns the coefficients of a cosine series from its values, [`POINTS`] times a power of two.
+/// The even ones belong to half as many values, the means of those at θ and π - θ; so do the sums
+/// of two odd ones that follow each other, by the products of half their differences with 2 cos θ.
 fn coefficients<T: Real>(values: &[T]) -> Vec<T> {
     let count = values.len();
     if count == POINTS {

@@ -9,9 +9,9 @@
 //!
 //! with the sign of `(-1)^(number of contacts to the right)` in the root. For many contacts w alone
 //! overflows; `w p` does not: with zeros ν in the middle of gaps, each factor of S has one of p
-//! close by, and `w p` keeps its sign over a contact. Without corners every gap has a zero, else N
-//! - n of them. More corners than contacts leave n - N - 1 *poles* instead: p is one over the
-//! product, and each ν lies in a gap between two corners, so that it stays in place.
+//! close by, and `w p` keeps its sign over a contact. Without corners every gap has a zero. With n
+//! corners N less n gaps have one. More corners than contacts leave *poles* instead, n less N + 1:
+//! p is one over the product, and each ν lies in a gap between two corners, so that it stays.
 
 use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real, Side};
