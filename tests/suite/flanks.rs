@@ -74,7 +74,8 @@ fn pair(dice: &mut Dice, in_y: bool) -> ([Profile; 2], f64, f64) {
 fn solve_and_certify(in_y: bool) {
     let scenes = std::env::var("SCENES").map_or(300, |n| n.parse().unwrap());
     let (mut refused, mut wrong) = (Vec::new(), Vec::new());
-    for seed in 0..scenes {
+    // Besides any seeds, one whose X falls by noise within narrow panels.
+    for seed in (0..scenes).chain([333]) {
         let mut dice = Dice::new(seed);
         let ([lower, upper], radius, length) = pair(&mut dice, in_y);
         let half_width = dice.power_of_ten(-7.0, -3.5);

@@ -286,7 +286,7 @@ impl<T: Real> Body<T> {
                     false => (panel.k[1] - panel.k[0]).abs(),
                 };
                 (panel.doubt, panel.is_sampled, panel.is_void) = (series.doubt, true, is_void);
-                check(&piece, panel, points, range)?;
+                check(&piece, panel, points, range, heights)?;
                 panel.series = Some(self.series.len());
                 self.series.push(series);
             }

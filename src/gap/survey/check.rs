@@ -1,8 +1,8 @@
 //! Checks of the points that a survey takes.
 
 use super::panel::Panel;
-use super::series::{NODES, POINTS, Series};
-use crate::profile::{Piece, first_turn};
+use super::series::{NODES, NOISE, POINTS, Series};
+use crate::profile::{Noise, Piece, first_turn};
 use crate::{CurvePoint, ProfileError, Real};
 
 /// Refuses points where X or Y is not finite inside the common range, or where X turns, and slopes
@@ -12,12 +12,11 @@ pub(super) fn check<T: Real>(
     panel: &Panel<T>,
     points: &[CurvePoint<T>; POINTS],
     range: [T; 2],
+    evaluations: &mut usize,
 ) -> Result<(), ProfileError<T>> {
     let ([from, to], k) = (panel.x(), Series::parameters(panel.k));
     let [first, last] = piece.x();
-    // Rounding of the largest terms in the formula of X.
-    let rounding = T::of(32.0) * T::epsilon() * first.abs().max(last.abs());
-    let mut reached = from;
+    let (mut reached, mut noise) = (from, None);
     for (i, point) in points[..NODES].iter().enumerate() {
         let fault = |quantity, value| Err(ProfileError::NotFinite { quantity, k: k[i], value });
         let CurvePoint { x, y, .. } = *point;
@@ -29,8 +28,12 @@ pub(super) fn check<T: Real>(
             continue;
         }
         // An end inside a piece is known only approximately, by the series.
-        let turns = i > 0 && x < reached - rounding;
-        if turns || x < first - rounding || x > last + rounding {
+        let least = if i > 0 { reached.max(first) } else { first };
+        let back = (least - x).max(x - last);
+        // No curve turns by its noise, which is measured only where X seems to turn.
+        let mut measured = || Noise::of_rounding(piece, k[i], evaluations);
+        let allowed = || measured().map_or(T::zero(), |noise| T::of(NOISE) * noise.x);
+        if back > T::zero() && back > *noise.get_or_insert_with(allowed) {
             let back = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
             let j = (0..NODES - 1).find(back).unwrap_or(i.saturating_sub(1));
             let met = [k[j], k[(j + 1).min(NODES - 1)]];

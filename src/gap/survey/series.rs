@@ -31,8 +31,9 @@ const ROUNDING: f64 = 32.0;
 /// piece.
 const LARGEST_NOISE: f64 = (1 << 20) as f64;
 
-/// Largest uncertainty of a series by noise, as a multiple of the noise of the heights.
-const NOISE: f64 = 8.0;
+/// Largest uncertainty of a series by noise, as a multiple of the noise of the heights; likewise
+/// the largest fall of X.
+pub(super) const NOISE: f64 = 8.0;
 
 /// Point of a body as a graph over x.
 #[derive(Clone, Copy, Debug)]
