@@ -22,8 +22,8 @@ const LOAD_AHEAD: f64 = 1.05;
 /// Largest uncertainty of panels for which the foot of a bump is to be seen, as a share of F/κ.
 const MAX_AT_FOOT: f64 = 1e-3;
 
-/// Largest uncertainty of panels next to a contact, as a share of F/κ: crests of this height may
-/// hide.
+/// Largest distance of points next to a contact from their panels, as a share of F/κ: crests of
+/// this height may hide.
 pub(crate) const MAX_NEAR_UNCERTAINTY: f64 = 0.1;
 
 /// Largest distance of a point from a panel that does not count as missed, as a multiple of its
@@ -170,7 +170,9 @@ impl<T: Real> Survey<T> {
         load: T,
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
-        let (tolerance, vague) = (T::of(MAX_AT_FOOT) * load, T::of(MAX_NEAR_UNCERTAINTY) * load);
+        // A point this far off may still be met by its panel.
+        let vague = T::of(MAX_NEAR_UNCERTAINTY / MAX_MISMATCH) * load;
+        let tolerance = T::of(MAX_AT_FOOT) * load;
         let mut is_finer = false;
         for _ in 0..MAX_ROUNDS {
             let mut marked = std::mem::take(&mut self.marked);
