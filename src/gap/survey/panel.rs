@@ -65,6 +65,11 @@ impl<T: Real> Panel<T> {
         !self.is_sampled || self.doubt > tolerance && (self.is_run() || !is_noise())
     }
 
+    /// Makes it unknown, as it misses the curve.
+    pub fn void(&mut self) {
+        (self.doubt, self.since, self.is_void) = (T::one() / T::zero(), T::zero(), true);
+    }
+
     /// Tells whether it consists of several pieces.
     pub fn is_run(&self) -> bool {
         self.last > self.piece

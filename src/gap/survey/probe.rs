@@ -6,7 +6,7 @@
 
 use super::body::{Body, Scratch};
 use super::lows::segment;
-use super::panel::Missed;
+use super::panel::{Missed, Panel};
 use super::{Cost, Node, Survey, hull_in};
 use crate::gap::{Gap, Surface};
 use crate::real::same;
@@ -150,15 +150,68 @@ impl<T: Real> Survey<T> {
             let mut marked = std::mem::take(&mut self.marked);
             marked[0].clear();
             marked[0].extend(stretches.iter().map(|stretch| stretch.x));
-            // Refines void panels only.
-            let most = T::max_value().unwrap_or(T::one() / T::epsilon());
-            let refined = self.refine_at(gap, [&marked[0]; 2], most, cost);
+            let refined = self.refine_void(gap, &marked[0], cost);
             self.marked = marked;
             if !refined? {
                 break;
             }
         }
         Ok(())
+    }
+
+    /// Learns from others how much the gap rises over some spans, and refines panels that contradict
+    /// them: no feature that the panels of a contact have seen is missing from the heights.
+    ///
+    /// # Errors
+    /// As [`take`](Self::take).
+    pub fn learn(
+        &mut self,
+        gap: &Gap<'_, T>,
+        rises: &[([T; 2], T)],
+        load: T,
+        cost: &mut Cost,
+    ) -> Result<(), ContactError<T>> {
+        loop {
+            let mut marked = std::mem::take(&mut self.marked);
+            marked[0].clear();
+            // Only noise excuses a panel.
+            let noise = |x: T| {
+                let panels = self.bodies.iter().map(|body| &body.panels[body.panels_at(x)[1]]);
+                let noisy = panels.filter(|panel| !panel.may_gain(T::zero()));
+                noisy.fold(T::zero(), |sum, panel| sum + panel.doubt)
+            };
+            let is_off = |&&([from, to], rise): &&([T; 2], T)| {
+                let off = (self.height(to) - self.height(from) - rise).abs();
+                off > T::of(MAX_AT_FOOT) * load + noise(from) + noise(to)
+            };
+            marked[0].extend(rises.iter().filter(is_off).map(|(span, _)| *span));
+            for body in &mut self.bodies {
+                for &[from, to] in &marked[0] {
+                    let [first, last] = [from, to].map(|x| body.panels_at(x));
+                    let on = &mut body.panels[first[1]..=last[0].max(first[1])];
+                    // A shorter panel has points of its own there.
+                    let is_long = |panel: &&mut Panel<T>| panel.x()[1] - panel.x()[0] > to - from;
+                    on.iter_mut().filter(is_long).for_each(Panel::void);
+                }
+            }
+            let refined = self.refine_void(gap, &marked[0], cost);
+            self.marked = marked;
+            if !refined? {
+                return Ok(());
+            }
+            (self.is_one, self.known) = (false, None);
+        }
+    }
+
+    /// Refines the void panels on some spans; tells whether there were any.
+    fn refine_void(
+        &mut self,
+        gap: &Gap<'_, T>,
+        spans: &[[T; 2]],
+        cost: &mut Cost,
+    ) -> Result<bool, ContactError<T>> {
+        let most = T::max_value().unwrap_or(T::one() / T::epsilon());
+        self.refine_at(gap, [spans; 2], most, cost)
     }
 
     /// Refines panels on some stretches until they are as accurate as the load F/κ requires, or
@@ -355,8 +408,7 @@ impl<T: Real> Body<T> {
                     self.missed.push(Missed { piece, k, point, by, apart: stretch.apart });
                 }
                 if !is_met {
-                    (panel.doubt, panel.since, panel.is_void) =
-                        (T::one() / T::zero(), T::zero(), true);
+                    panel.void();
                     stretch.is_missed = true;
                 }
             }

@@ -124,18 +124,19 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Tells whether the panels have found a feature that a convex survey has missed, and shows it
     /// to the survey.
     pub(super) fn corrects_survey(&mut self) -> Result<bool, ContactError<T>> {
+        let falls = panels::falls(self.work.integrator);
+        if falls {
+            self.show_panels()?;
+        }
+        Ok(falls)
+    }
+
+    /// Shows the survey what the panels of the contacts see, over their whole span.
+    pub(super) fn show_panels(&mut self) -> Result<(), ContactError<T>> {
         let gap = &self.contact.gap;
         let Work { integrator, workspace, cost } = &mut *self.work;
-        let Some([from, to]) = panels::falls(*integrator) else { return Ok(false) };
-        // As a gap between narrow contacts, it is looked at closely.
-        let ([first, last], [left, right]) = (gap.range(), [from - (to - from), to + (to - from)]);
-        let pairs = [[first.min(left), left], [left, from], [to, right], [right, last.max(right)]];
-        let around = pairs.map(|[left, right]| Interval { left, right });
         let load = workspace.about(gap, asked_by(&self.conditions), cost)?;
-        workspace.look.look_again();
-        workspace.look.resolve(gap, load, &around, cost)?;
-        workspace.look.look_again();
-        Ok(true)
+        workspace.look.learn(gap, &panels::rises_between(*integrator), load, cost)
     }
 
     /// Tells whether one contact covers the bodies from end to end.

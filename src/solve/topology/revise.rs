@@ -292,6 +292,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Takes the contacts from a coarse active set, with more cells after each failure.
     fn take_cells(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
+        self.show_panels()?;
         // This number of cells has not failed yet.
         let cells = self.cells;
         self.cells = (cells + cells).min(FIRST_CELLS << MAX_DOUBLINGS);
