@@ -15,6 +15,7 @@
 //! in each test, from the seed `FIRST` on.
 
 mod equal_crests;
+mod features;
 mod inner_corners;
 mod right_answers;
 
