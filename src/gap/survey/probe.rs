@@ -165,8 +165,8 @@ impl<T: Real> Survey<T> {
         Ok(())
     }
 
-    /// Learns from others how much the gap rises over some spans, and refines panels that contradict
-    /// them: no feature that the panels of a contact have seen is missing from the heights.
+    /// Learns from others how much the gap rises over some spans, and refines panels that
+    /// contradict them: no feature that the panels of a contact have seen is missing.
     ///
     /// # Errors
     /// As [`take`](Self::take).
