@@ -260,6 +260,9 @@ impl<T: Real> OneOfSeveral<T> {
         let end = |panel: &Panel<T>| panel.x[usize::from(side == Side::Left)];
         let wall = (on[side] - end(&last[0])).abs();
         let half_width = on.half_width();
+        if wall >= T::of(MAX_WALL) * half_width {
+            return None;
+        }
         let value = |x: T| self.panel_set.slope(x).unwrap_or(T::zero());
         let at_end = value(on[side]);
         let all = (at_end - value(on.centre())).abs().max((at_end - value(on[side.other()])).abs());

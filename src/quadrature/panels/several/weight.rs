@@ -196,22 +196,25 @@ impl<T: Real> Weight<T> {
     #[inline(always)]
     fn square_by<const W: usize>(&self, k: usize, to_right: bool, x: [T; W]) -> [T; W] {
         let on = self.on[k];
-        // Outside the contact both distances have the same sign.
-        let root = match self.held[k] {
-            Ends { left: false, right: false } => {
-                x.map(|x| T::one() / ((x - on.left) * (x - on.right)))
-            }
-            Ends { left: true, right: false } => x.map(|x| (x - on.left) / (x - on.right)),
-            Ends { left: false, right: true } => x.map(|x| (x - on.right) / (x - on.left)),
-            Ends { left: true, right: true } => x.map(|x| (x - on.left) * (x - on.right)),
-        };
         let gap = if to_right { Some(k) } else { k.checked_sub(1) };
-        let Some(middle) = gap.and_then(|gap| *self.middles.get(gap)?) else { return root };
-        let inverse = self.is_inverse();
-        std::array::from_fn(|i| {
-            let square = (x[i] - middle) * (x[i] - middle);
-            if inverse { root[i] / square } else { root[i] * square }
-        })
+        let middle = gap.and_then(|gap| *self.middles.get(gap)?);
+        let away = |x: T| middle.map_or(T::one(), |middle| (x - middle) * (x - middle));
+        // Outside the contact both distances have the same sign.
+        match self.held[k] {
+            // No pole lies beside it.
+            Ends { left: false, right: false } => {
+                x.map(|x| away(x) / ((x - on.left) * (x - on.right)))
+            }
+            held => x.map(|x| {
+                let [left, right] = [x - on.left, x - on.right];
+                let root = match held {
+                    Ends { left: true, right: true } => left * right,
+                    Ends { left: true, .. } => left / right,
+                    _ => right / left,
+                };
+                if self.is_inverse() { root / away(x) } else { root * away(x) }
+            }),
+        }
     }
 
     /// Returns [`on_contact`](Self::on_contact) at a corner over the distance from it.
