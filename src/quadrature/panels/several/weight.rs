@@ -198,21 +198,22 @@ impl<T: Real> Weight<T> {
         let on = self.on[k];
         let gap = if to_right { Some(k) } else { k.checked_sub(1) };
         let middle = gap.and_then(|gap| *self.middles.get(gap)?);
-        let away = |x: T| middle.map_or(T::one(), |middle| (x - middle) * (x - middle));
         // Outside the contact both distances have the same sign.
-        match self.held[k] {
+        match (self.held[k], middle) {
             // No pole lies beside it.
-            Ends { left: false, right: false } => {
-                x.map(|x| away(x) / ((x - on.left) * (x - on.right)))
+            (Ends { left: false, right: false }, Some(zero)) => {
+                x.map(|x| (x - zero) * (x - zero) / ((x - on.left) * (x - on.right)))
             }
-            held => x.map(|x| {
+            (held, _) => x.map(|x| {
                 let [left, right] = [x - on.left, x - on.right];
                 let root = match held {
+                    Ends { left: false, right: false } => T::one() / (left * right),
+                    Ends { left: true, right: false } => left / right,
+                    Ends { left: false, right: true } => right / left,
                     Ends { left: true, right: true } => left * right,
-                    Ends { left: true, .. } => left / right,
-                    _ => right / left,
                 };
-                if self.is_inverse() { root / away(x) } else { root * away(x) }
+                let away = middle.map_or(T::one(), |middle| (x - middle) * (x - middle));
+                if self.is_inverse() { root / away } else { root * away }
             }),
         }
     }
@@ -258,10 +259,12 @@ fn count(held: Ends<bool>) -> usize {
 
 /// Returns the root of the distances from both limits of a contact, over those from held ones.
 fn root_over<T: Real>(held: Ends<bool>, [from_left, from_right]: [T; 2]) -> T {
-    let root = |is_held: bool, distance: T| {
-        if is_held { T::one() / distance.sqrt() } else { distance.sqrt() }
-    };
-    root(held.left, from_left) * root(held.right, from_right)
+    match held {
+        Ends { left: false, right: false } => (from_left * from_right).sqrt(),
+        Ends { left: true, right: false } => (from_right / from_left).sqrt(),
+        Ends { left: false, right: true } => (from_left / from_right).sqrt(),
+        Ends { left: true, right: true } => T::one() / (from_left * from_right).sqrt(),
+    }
 }
 
 /// Returns the sign after an odd or even number of changes.
