@@ -22,12 +22,6 @@ const LOAD_AHEAD: f64 = 1.05;
 /// Largest uncertainty of panels for which the foot of a bump is to be seen, as a share of F/κ.
 const MAX_AT_FOOT: f64 = 1e-3;
 
-/// Largest uncertainty at which the foot shows half the default distance of points from the top,
-/// as a share of F/κ; and the share of this distance for vaguer panels: 1.1 widths from the top a
-/// bump has 3 % of its height.
-const MAX_AT_DISTANCE: f64 = 1e-8;
-const CLOSER: f64 = 0.5;
-
 /// Largest distance of points next to a contact from their panels, as a share of F/κ: crests of
 /// this height may hide.
 pub(crate) const MAX_NEAR_UNCERTAINTY: f64 = 0.1;
@@ -299,17 +293,15 @@ impl<T: Real> Survey<T> {
                 }
                 let on = contacts.get(next);
                 let end = on.map_or(to, |on| to.min(on.left));
-                let beside = &contacts[next.saturating_sub(1)..contacts.len().min(next + 1)];
-                let narrow = beside.iter().fold(hull, |least, on| least.min(on.half_width()));
-                let is_vague = pair[0].after > T::of(MAX_AT_DISTANCE) * load;
-                let closer = if is_vague { CLOSER } else { 1.0 };
-                let apart = gap.spacing(narrow, closer * PROBE_SPACING);
+                let beside = contacts[next.saturating_sub(1)..].iter().take(2);
+                let narrow = beside.fold(hull, |least, on| least.min(on.half_width()));
+                let apart = gap.spacing(narrow, PROBE_SPACING);
                 // A limit of a contact is not a point.
                 let is_beside = from > pair[0].x || end < to;
                 let least = if is_beside { T::of(0.5) * apart } else { apart };
                 let is_wide = |x: [T; 2]| x[1] - x[0] > least;
                 if (is_wide([from, end]) || is_asked && end > from)
-                    && let Some(x) = within(gap, pair, [from, end], level + pair[0].after, beside)
+                    && let Some(x) = within(gap, pair, [from, end], level + pair[0].after)
                     && (is_wide(x) || is_asked)
                 {
                     // A void panel must be refined first.
@@ -353,21 +345,11 @@ impl<T: Real> Survey<T> {
     }
 }
 
-/// Cuts a span between two points at about the place where the gap rises to a level, and no contact
-/// is within its half-width, if an end is beyond.
-fn within<T: Real>(
-    gap: &Gap<'_, T>,
-    pair: &[Node<T>],
-    x: [T; 2],
-    level: T,
-    beside: &[Interval<T>],
-) -> Option<[T; 2]> {
+/// Cuts a span between two points at about the place where the gap rises to a level, if an end is
+/// above it.
+fn within<T: Real>(gap: &Gap<'_, T>, pair: &[Node<T>], x: [T; 2], level: T) -> Option<[T; 2]> {
     let curve = segment(&pair[0], &pair[1]);
-    let is_below = |x: T| {
-        let is_beside = |on: &Interval<T>| (x - on.centre()).abs() <= T::of(2.0) * on.half_width();
-        beside.iter().any(is_beside)
-            || gap.turned(x, curve.at((x - pair[0].x) / curve.width)[0]) < level
-    };
+    let is_below = |x: T| gap.turned(x, curve.at((x - pair[0].x) / curve.width)[0]) < level;
     let (from, mut low, mut high) = match x.map(is_below) {
         [true, true] => return Some(x),
         [true, false] => (x[0], x[0], x[1]),
