@@ -102,7 +102,6 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
                 "near x = 15.5",
                 "the width asked for or else the last that was tried",
                 "single_interval",
-                "give the load",
                 "breakpoints",
                 "Fit::smooth",
                 "start",
@@ -395,7 +394,7 @@ fn the_message_of_a_contact_names_its_values() {
 #[test]
 fn the_message_of_what_is_no_contact_says_where_it_is_none_and_what_helps() {
     let (interval, load) = (ON, 1.5);
-    let helps = ["give the load", "change it a little", "breakpoints", "Fit::smooth"];
+    let helps = ["change what is given a little", "breakpoints", "Fit::smooth"];
     let minus_infinity = f64::NEG_INFINITY;
     for (error, words, helps) in [
         (

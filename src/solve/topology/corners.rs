@@ -37,7 +37,7 @@ const NEAR: f64 = 0.2;
 const SHARP: f64 = 0.1;
 
 /// Distance beyond a corner within which the gap opens so far, as a share of the half-width.
-const SHORT: f64 = 0.02;
+const SHORT: f64 = 1e-4;
 
 /// Share of a contact's half-width by which a limit leaves a corner inward.
 const STEP_INWARD: f64 = 0.01;
