@@ -34,7 +34,7 @@ pub(crate) use edge_integrals::rise as rises_over;
 pub(crate) use half_angle::{Arc, HalfAngle};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 use panel::Series;
-pub(crate) use panel::{Panel, nodes};
+pub(crate) use panel::{Panel, nodes, rises_between};
 use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System, contacts};
@@ -50,26 +50,6 @@ pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option
 pub(crate) fn falls<T: Real>(integrator: &dyn Integrator<T>) -> bool {
     let only = integrator.panels().and_then(PanelIntegrator::only);
     only.is_some_and(|(panel_set, _)| panel_set.falls().next().is_some())
-}
-
-/// Lists the rises of the gap over the spans between the nodes of all panels, before the bodies are
-/// turned.
-pub(crate) fn rises_between<T: Real>(integrator: &dyn Integrator<T>) -> Vec<([T; 2], T)> {
-    // A first estimate has seen too little.
-    let Some(own) = integrator.panels().filter(|own| own.decay.is_none()) else {
-        return Vec::new();
-    };
-    let count = if own.is_several { own.several.contacts().len() } else { 1 };
-    let sets = (0..count).map(|i| own.contact(i).0);
-    let rises = sets.flat_map(|PanelSet { panels, tilt, .. }| {
-        panels.iter().flat_map(|panel| {
-            let x: Vec<T> =
-                [panel.x[0]].into_iter().chain(panel.nodes()).chain([panel.x[1]]).collect();
-            let rise = |x: &[T]| ([x[0], x[1]], panel.rise(x[0], x[1]) - *tilt * (x[1] - x[0]));
-            x.windows(2).map(rise).collect::<Vec<_>>()
-        })
-    });
-    rises.collect()
 }
 
 /// Tells whether the panels of one contact cover an interval, and the slope of the gap rises there.

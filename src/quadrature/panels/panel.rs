@@ -221,6 +221,25 @@ pub(crate) fn nodes<T: Real>(
     nodes.extend(across::<SMOOTH, T>(panels, on, is_same).1.flat_map(Panel::nodes));
 }
 
+/// Lists the rises of the gap from node to node of the panels of all contacts, before the bodies are
+/// turned.
+pub(crate) fn rises_between<T: Real>(integrator: &dyn Integrator<T>) -> Vec<([T; 2], T)> {
+    // A first estimate has seen too little.
+    let known = integrator.panels().filter(|own| own.decay.is_none());
+    let count = super::several(integrator).map_or(1, |several| several.contacts().len());
+    let sets = known.into_iter().flat_map(|own| (0..count).map(|i| own.contact(i).0));
+    let mut rises = Vec::new();
+    for PanelSet { panels, tilt, .. } in sets {
+        for panel in panels {
+            let nodes: Vec<T> = panel.nodes().collect();
+            let rise = |x: &[T]| ([x[0], x[1]], panel.rise(x[0], x[1]) - *tilt * (x[1] - x[0]));
+            let x = [&[panel.x[0]], &nodes[..], &[panel.x[1]]].concat();
+            rises.extend(x.windows(2).map(rise));
+        }
+    }
+    rises
+}
+
 /// Lists panels with their parts of an interval; the outermost parts reach its ends.
 pub(super) fn spans<T: Real>(
     panels: &[Panel<T>],
