@@ -221,8 +221,8 @@ pub(crate) fn nodes<T: Real>(
     nodes.extend(across::<SMOOTH, T>(panels, on, is_same).1.flat_map(Panel::nodes));
 }
 
-/// Lists the rises of the gap from node to node of the panels of all contacts, before the bodies are
-/// turned.
+/// Lists the rises of the gap from node to node of the panels of all contacts, before the bodies
+/// are turned.
 pub(crate) fn rises_between<T: Real>(integrator: &dyn Integrator<T>) -> Vec<([T; 2], T)> {
     // A first estimate has seen too little.
     let known = integrator.panels().filter(|own| own.decay.is_none());
