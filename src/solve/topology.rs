@@ -59,8 +59,6 @@ struct Search<'s, 'w, 'b, T: Real> {
     cells: usize,
     /// Corners that hold limits, each with the side of its contact.
     held: Vec<(T, Side)>,
-    /// Corners beyond which limits were put.
-    beyond: Vec<(T, Side)>,
     /// Places where gaps have closed.
     closed: Vec<Interval<T>>,
     /// Single contacts in which a feature was lost to the panels.
@@ -80,7 +78,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         work: &'s mut Work<'w, T>,
     ) -> Self {
         let (cells, has_run_out, [closed, lost]) = (FIRST_CELLS, false, [Vec::new(), Vec::new()]);
-        let (held, beyond) = (Vec::new(), Vec::new());
+        let held = Vec::new();
         let (runs_out, end, samples) = (None, None, work.integrator.cost().samples);
         Self {
             contact,
@@ -89,7 +87,6 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             samples,
             cells,
             held,
-            beyond,
             closed,
             lost,
             runs_out,

@@ -43,9 +43,8 @@ const RADIUS: f64 = 1.0 / 64.0;
 /// Contacts with their panels, as seen from anywhere in the plane.
 pub(crate) struct CauchyTransform<T> {
     pub(super) contacts: Vec<(Interval<T>, NearFarSum<T>)>,
-    /// Zero or pole of p in each gap, if it has one, and a flag: they are poles.
+    /// Zero of p in each gap, if it has one; its pole, if there are more corners than contacts.
     pub(super) middles: Vec<Option<T>>,
-    pub(super) is_inverse: bool,
     /// Limits that are held at corners, where S has an inverse root.
     pub(super) corners: Vec<T>,
     /// Terms of V besides the integrals.
@@ -71,7 +70,6 @@ impl<T: Real> CauchyTransform<T> {
         Self {
             contacts: vec![(on, sum)],
             middles: Vec::new(),
-            is_inverse: false,
             corners: Vec::new(),
             terms: Terms::none(),
             strengths,
@@ -139,7 +137,7 @@ impl<T: Real> CauchyTransform<T> {
             (factor, power) = (factor * roots[0] * roots[1], power + 1);
             rate += (inverse(ends[0]) + inverse(ends[1])) * T::of(0.5);
             match self.middles.get(i) {
-                Some(&Some(pole)) if self.is_inverse => {
+                Some(&Some(pole)) if self.corners.len() > self.contacts.len() => {
                     let by = place(pole);
                     (factor, rate, power) = (factor * by, rate + inverse(by), power + 1);
                 }

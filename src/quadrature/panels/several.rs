@@ -85,6 +85,7 @@ pub(crate) struct Several<T> {
     /// Parts of V by the contacts far from each.
     far: FarField<T>,
     tolerance: T,
+    /// Terms of V besides the integrals.
     terms: Terms<T>,
     /// Cost of sampling; `spent` is the earlier cost of a single contact.
     pub cost: Cost,
@@ -194,18 +195,7 @@ impl<T: Real> Several<T> {
         let corners = self.weight.held_limits().collect();
         let middles = self.weight.middles().to_vec();
         let terms = self.terms.clone();
-        let is_inverse = self.weight.is_inverse();
-        CauchyTransform {
-            contacts,
-            middles,
-            is_inverse,
-            corners,
-            terms,
-            strengths,
-            far_away,
-            kappa,
-            load,
-        }
+        CauchyTransform { contacts, middles, corners, terms, strengths, far_away, kappa, load }
     }
 
     /// Returns the number of poles of p.

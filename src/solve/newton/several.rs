@@ -32,10 +32,6 @@ const MAX_CUT: i32 = 9;
 /// of a trial.
 const LAST_TRIAL: f64 = 0.02;
 
-/// Least share of the root of a distance from a corner that a step leaves, and the reciprocal of
-/// the largest.
-const LEAST_ROOT: f64 = 0.25;
-
 /// Least number of contacts for a trial: with few it saves little, and a tiny contact that was just
 /// born needs all digits.
 const LEAST_TRIED: usize = 8;
@@ -94,8 +90,6 @@ pub(in super::super) struct NewtonSeveral<T> {
     pub errors: Vec<T>,
     /// Limits of each contact that a corner holds.
     pub held: Vec<Ends<bool>>,
-    /// Corners next to which limits of each contact lie outside, if they were let go there.
-    pub beyond: Vec<Ends<Option<T>>>,
     /// Outermost limit that stays at the end of the bodies.
     at_end: Option<Side>,
     /// Residues at the poles of the quadrature.
@@ -123,7 +117,7 @@ pub(in super::super) struct NewtonSeveral<T> {
 impl<T: Real> NewtonSeveral<T> {
     pub fn new() -> Self {
         let (at_end, progress, passed) = (None, Progress::new(), None);
-        let (held, beyond, residues) = (Vec::new(), Vec::new(), Vec::new());
+        let (held, residues) = (Vec::new(), Vec::new());
         let [errors, step, moves, unit, open] = std::array::from_fn(|_| Vec::new());
         let system = System::new();
         let (on, order, tilt, load) = (Vec::new(), Vec::new(), T::zero(), T::zero());
@@ -134,7 +128,6 @@ impl<T: Real> NewtonSeveral<T> {
             on,
             errors,
             held,
-            beyond,
             at_end,
             residues,
             progress,
@@ -241,26 +234,10 @@ impl<T: Real> NewtonSeveral<T> {
         self.moves.resize(2 * self.on.len(), T::zero());
         for (&i, &step) in self.system.free.iter().zip(&self.step) {
             if self.moves_freely(i) {
-                self.moves[i] = self.move_beyond_corner(i, -step);
+                self.moves[i] = -step;
             }
         }
         Ok(Ok(()))
-    }
-
-    /// Returns the way from a corner beyond which a limit was put to this limit.
-    fn distance_beyond(&self, i: usize) -> Option<T> {
-        let side = Side::BOTH[i % 2];
-        let corner = self.beyond.get(i / 2)?[side]?;
-        Some(self.on[i / 2][side] - corner)
-    }
-
-    /// Returns the move of a limit for a step. Beyond a corner the pressure is linear in the root
-    /// of the distance from it.
-    fn move_beyond_corner(&self, i: usize, step: T) -> T {
-        let Some(distance) = self.distance_beyond(i) else { return step };
-        let share = T::one() + T::of(0.5) * step / distance;
-        let share = share.max(T::of(LEAST_ROOT)).min(T::one() / T::of(LEAST_ROOT));
-        distance * (share * share - T::one())
     }
 
     /// Takes the step of the residues, and of the tilt or of the load, if sought.
@@ -478,7 +455,6 @@ mod tests {
         let mut newton = NewtonSeveral::new();
         newton.on = start.iter().map(|&[left, right]| Interval { left, right }).collect();
         newton.held = held.to_vec();
-        newton.beyond.clear();
         let ends = gap.range().into();
         let conditions = Conditions { gap: &gap, load, ends, besides: None };
         let verdict = newton.converge(&mut several, &conditions).unwrap();

@@ -42,15 +42,20 @@ const SHORT: f64 = 1e-4;
 /// Share of a contact's half-width by which a limit leaves a corner inward.
 const STEP_INWARD: f64 = 0.01;
 
-/// Largest share of a wall on which a contact may end, for a start.
-const LEAST_OPEN: f64 = 0.9;
-
 /// Least ratio of shares d/L that are let go together.
 const TOGETHER: f64 = 0.01;
 
 /// Doublings of √d from its least value, and halvings of its logarithm after them: a start.
 const MAX_DOUBLINGS: usize = 40;
 const HALVINGS: usize = 5;
+
+/// Breakpoint on one side of a contact, with the slope of the gap on its inner side.
+#[derive(Clone, Copy)]
+struct Corner<T> {
+    z: T,
+    side: Side,
+    slope: T,
+}
 
 /// Limit at a corner that holds it.
 struct Held<T> {
@@ -83,7 +88,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn hold(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         self.held.clear();
-        self.beyond.clear();
         let on = &mut self.work.workspace.newton.on;
         let hull = Interval { left: on[0].left, right: on[on.len() - 1].right };
         let reaches = Ends { left: hull.left <= ends.left, right: hull.right >= ends.right };
@@ -128,12 +132,15 @@ impl<T: Real> Search<'_, '_, '_, T> {
             corners.reverse();
         }
         for z in corners {
-            // Beyond a hollow corner the limit does not get.
-            let way = outward * (z - x);
-            if way > T::zero() && self.rise_beyond(x, side, &[way])?[0] < -least_rise(mean) {
-                break;
+            let corner = self.corner(z, side)?;
+            if outward * (z - x) > T::zero() {
+                // Beyond a hollow corner the limit does not get.
+                let rise = outward * (corner.slope - self.corner(x, side)?.slope);
+                if rise < -least_rise(mean) {
+                    break;
+                }
             }
-            if self.is_sharp(z, side, mean, on.half_width())? {
+            if self.is_sharp(&corner, mean, on.half_width())? {
                 return Ok(Some(z));
             }
         }
@@ -147,7 +154,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let on = Interval { left, right };
         for z in self.contact.gap.breakpoints(on).collect::<Vec<_>>() {
             for side in Side::BOTH {
-                if self.is_sharp(z, side, mean, T::of(0.5) * (right - left))? {
+                let corner = self.corner(z, side)?;
+                if self.is_sharp(&corner, mean, T::of(0.5) * (right - left))? {
                     return Ok(true);
                 }
             }
@@ -159,43 +167,45 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// on it. `mean` is `F/(κ L)`.
     fn is_sharp(
         &mut self,
-        z: T,
-        side: Side,
+        corner: &Corner<T>,
         mean: T,
         half_width: T,
     ) -> Result<bool, ContactError<T>> {
-        Ok(self.steepest_beyond(z, side, T::of(SHORT) * half_width)? > least_rise(mean))
+        Ok(self.steepest_beyond(corner, T::of(SHORT) * half_width)? > least_rise(mean))
+    }
+
+    /// Returns a breakpoint, or a limit, with the slope on its inner side.
+    fn corner(&mut self, z: T, side: Side) -> Result<Corner<T>, ContactError<T>> {
+        let mut sampler = Sampler::default();
+        let slope = sampler.slope_from(&self.contact.gap, z, side.other())?;
+        self.work.cost.heights += sampler.cost.evaluations;
+        Ok(Corner { z, side, slope })
     }
 
     /// Returns the steepest slope, outward, up to a distance beyond a breakpoint, above the slope
     /// inside: at the ends of the pieces there.
-    fn steepest_beyond(&mut self, z: T, side: Side, reach: T) -> Result<T, ContactError<T>> {
+    fn steepest_beyond(&mut self, corner: &Corner<T>, reach: T) -> Result<T, ContactError<T>> {
+        let Corner { z, side, .. } = *corner;
         let at = z + outward::<T>(side) * reach;
         let on = Interval { left: z.min(at), right: z.max(at) };
         let ends = self.contact.gap.breakpoints(on).map(|x| (x - z).abs());
         let away: Vec<T> = ends.chain([reach]).collect();
-        let rises = self.rise_beyond(z, side, &away)?;
+        let rises = self.rise_beyond(corner, &away)?;
         Ok(rises.into_iter().fold(self.contact.gap.jump(z)[0], T::max))
     }
 
-    /// Returns the length of the wall beyond a corner, up to the next hollow corner, or `most`.
-    fn wall_beyond(&self, z: T, side: Side, most: T) -> T {
-        let at = z + outward::<T>(side) * most;
-        let gap = &self.contact.gap;
-        let hollow = gap.breakpoints(Interval { left: z.min(at), right: z.max(at) });
-        let hollow = hollow.filter(|&x| gap.jump(x)[0] < T::zero()).map(|x| (x - z).abs());
-        hollow.reduce(T::min).map_or(most, |length| T::of(LEAST_OPEN) * length)
-    }
-
     /// Returns the slopes, outward, at some distances beyond a corner, above the slope inside.
-    fn rise_beyond(&mut self, z: T, side: Side, away: &[T]) -> Result<Vec<T>, ContactError<T>> {
+    fn rise_beyond(
+        &mut self,
+        &Corner { z, side, slope }: &Corner<T>,
+        away: &[T],
+    ) -> Result<Vec<T>, ContactError<T>> {
         let (gap, mut sampler) = (&self.contact.gap, Sampler::default());
         let [from, to] = gap.range();
         let outward: T = outward(side);
-        let inside = sampler.slope_from(gap, z, side.other())?;
         let slopes = away.iter().map(|&away| {
             let x = (z + outward * away).max(from).min(to);
-            Ok(outward * (sampler.slope_from(gap, x, side.other())? - inside))
+            Ok(outward * (sampler.slope_from(gap, x, side.other())? - slope))
         });
         let slopes = slopes.collect();
         self.work.cost.heights += sampler.cost.evaluations;
@@ -210,21 +220,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
     }
 
-    /// Marks the limits of the contacts at hand that are held, and those put beyond corners.
-    pub(super) fn mark_corners(&mut self) {
-        let NewtonSeveral { on, held, beyond, .. } = &mut self.work.workspace.newton;
+    /// Marks the limits of the contacts at hand that are held.
+    pub(super) fn mark_held(&mut self) {
+        let NewtonSeveral { on, held, .. } = &mut self.work.workspace.newton;
         held.clear();
-        beyond.clear();
-        for on in &*on {
-            held.push(Ends::from_fn(|side| self.held.contains(&(on[side], side))));
-            beyond.push(Ends::from_fn(|side| {
-                let is_near = |&&(z, at): &&(T, Side)| {
-                    let distance = outward::<T>(side) * (on[side] - z);
-                    at == side && distance > T::zero() && distance < on.half_width()
-                };
-                self.beyond.iter().find(is_near).map(|&(z, _)| z)
-            }));
-        }
+        let marked = |on: &Interval<T>, side: Side| self.held.contains(&(on[side], side));
+        held.extend(on.iter().map(|on| Ends::from_fn(|side| marked(on, side))));
     }
 
     /// Lets go of corners that do not hold the contacts found, and tells whether there are any.
@@ -258,7 +259,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
             if d.abs() > (rounding * half_width).sqrt() {
                 beyond.push(((contact, side, z), d, d.abs() / half_width));
             } else {
-                error = error.max((d + d) / half_width);
+                // A distance that is no number leaves the contact doubtful.
+                error += (d + d).abs() / half_width;
             }
         }
         // Each changes the pressure at the others by its share of the width.
@@ -270,7 +272,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         // An error of zero is that of corners at the ends.
         if !error.is_zero() {
-            found.error = Some(found.error.unwrap_or(error).max(error));
+            found.error = Some(found.error.unwrap_or(T::zero()) + error);
         }
         Ok(!beyond.is_empty())
     }
@@ -278,9 +280,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Puts a held limit at a distance beyond its corner.
     fn let_go(&mut self, (contact, side, z): (usize, Side, T), away: T) {
         self.held.retain(|&held| held != (z, side));
-        if away > T::zero() {
-            self.beyond.push((z, side));
-        }
         self.put_limit(contact, side, z + outward::<T>(side) * away);
     }
 
@@ -316,12 +315,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let nodes: Vec<[T; 2]> = (0..rule.n)
             .map(|i| [T::of(0.5 * (1.0 + rule.nodes[i])), T::of(rule.weights[i])])
             .collect();
-        let steepest = self.steepest_beyond(z, side, half * half_width)?;
-        let most = self.wall_beyond(z, side, half * half_width).sqrt();
+        let corner = self.corner(z, side)?;
+        let steepest = self.steepest_beyond(&corner, half * half_width)?;
+        let most = (half * half_width).sqrt();
         let mut share_at = |root: T| -> Result<T, ContactError<T>> {
             let away: Vec<T> =
                 nodes.iter().map(|&[u, _]| root * root * (T::one() - u * u)).collect();
-            let rises = self.rise_beyond(z, side, &away)?;
+            let rises = self.rise_beyond(&corner, &away)?;
             let both = rises.iter().zip(&nodes);
             let sum = both.fold(T::zero(), |sum, (&rise, &[_, weight])| sum + weight * rise);
             Ok(sum * root / due)

@@ -245,7 +245,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         conditions: &Conditions<T>,
     ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        self.mark_corners();
+        self.mark_held();
         if let (&[on], None) = (&self.work.workspace.newton.on[..], self.end) {
             return self.one_of_set(conditions, on, self.work.workspace.newton.held[0]);
         }

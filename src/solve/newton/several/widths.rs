@@ -76,8 +76,7 @@ impl<T: Real> NewtonSeveral<T> {
                 if !self.moves_freely(limit) {
                     return zero;
                 }
-                let beside = beside.map_or(width, |beside| width.min(self.width(beside)));
-                self.distance_beyond(limit).map_or(beside, |distance| width.min(distance.abs()))
+                beside.map_or(width, |beside| width.min(self.width(beside)))
             };
             let left = room(i, i.checked_sub(1));
             let right = room(i + 1, (i + 2 < count).then_some(i + 1));
