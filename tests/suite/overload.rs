@@ -528,7 +528,7 @@ fn two_sharp_ridges_are_refused_with_what_they_bear() {
     assert!((carried / (bears * PI / 2.0 * 1e5) - 1.0).abs() < 1e-9, "{carried} {bears}");
 }
 
-/// What chains and pairs of ridges bear, by closed forms.
+/// Chains and pairs of ridges bear what closed forms say, and refuse more.
 #[test]
 fn chains_and_ridges_bear_what_their_closed_forms_say() {
     let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(100);

@@ -217,9 +217,9 @@ impl Scene {
 #[test]
 fn contacts_end_at_corners_inside_the_bodies() {
     let mut tally = Tally::default();
-    // A limit at a hollow corner before another corner; an overlap within the error of a held limit;
-    // corners that move their limits by shares that differ by many decades; a series of the pressure
-    // that hides a corner.
+    // A limit at a hollow corner before another corner; an overlap within the error of a held
+    // limit; corners that move their limits by shares that differ by many decades; a series of the
+    // pressure that hides a corner.
     let by_name = [173, 195, 612, 853];
     for seed in scenes(60).chain(by_name) {
         let scene = Scene::new(&mut Dice::new(seed));
@@ -332,8 +332,8 @@ fn compare(
     }
 }
 
-/// Held at all their corners, N lands have `P = (F/π) |q|/√|R|` with a polynomial q of degree N - 1,
-/// or N if a moment turns them: the gaps and the moment leave nothing open.
+/// Held at all their corners, N lands have `P = (F/π) |q|/√|R|` with a polynomial q of degree
+/// N - 1, or N if a moment turns them: the gaps and the moment leave nothing open.
 #[test]
 fn unequal_lands_three_lands_and_a_moment_have_closed_forms() {
     // Beyond walls of slope 1 the limits are free, with d/L of 5e-6.
