@@ -1,5 +1,6 @@
 //! The scene: two bodies, their stiffness, and the settings of the solve.
 
+mod beside;
 mod control;
 mod edge_pressure;
 pub(crate) mod edges;
@@ -9,8 +10,10 @@ pub use control::Control;
 pub use edge_pressure::EdgePressure;
 
 use crate::error::is_subnormal;
+use beside::Beside;
 use crate::gap::{Cost, Gap, Shape};
-use crate::material::{Elasticity, Material, PlaneState};
+use crate::kernel::{Formula, Foundation, Layers, RegularKernel, SurfaceCompliance};
+use crate::material::{Elasticity, PlaneState};
 use crate::quadrature::{Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
 use crate::{
@@ -57,6 +60,8 @@ pub struct Contact<'b, T: Real> {
     pub(crate) quadrature: &'b dyn Quadrature<T>,
     pub(crate) certified: bool,
     pub(crate) single_interval: bool,
+    /// What the bodies have beside half-planes.
+    pub(crate) beside: Beside<'b, T>,
 }
 
 /// Source of κ.
@@ -67,7 +72,7 @@ enum Stiffness<T> {
     /// E* as given.
     Modulus(T),
     /// Materials of the bodies, as given.
-    Materials([Material<T>; 2], PlaneState),
+    Materials([Foundation<T>; 2], PlaneState),
 }
 
 impl<'b, T: Real> Contact<'b, T> {
@@ -131,6 +136,7 @@ impl<'b, T: Real> Contact<'b, T> {
             quadrature: &Panels::FULL,
             certified: false,
             single_interval: false,
+            beside: Beside::default(),
         })
     }
 
@@ -166,12 +172,45 @@ impl<'b, T: Real> Contact<'b, T> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn materials(self, lower: Material<T>, upper: Material<T>, state: PlaneState) -> Self {
-        let materials = [lower, upper];
+    pub fn materials(
+        self,
+        lower: impl Into<Foundation<T>>,
+        upper: impl Into<Foundation<T>>,
+        state: PlaneState,
+    ) -> Self {
+        let materials = [lower.into(), upper.into()];
+        let surfaces = [materials[0].surface(), materials[1].surface()];
         // The solve reports what is wrong with the materials.
-        let modulus = Elasticity::of_bodies(materials, state).map(|(_, modulus)| modulus);
+        let modulus = Elasticity::of_bodies(surfaces, state).map(|(_, modulus)| modulus);
         let this = self.contact_modulus(modulus.unwrap_or(T::one()));
         Self { stiffness: Stiffness::Materials(materials, state), ..this }
+    }
+
+    /// Adds a regular kernel K(x, s) to the equation of the contact, the paper's Eq. (1):
+    ///
+    /// ```text
+    /// PV∫ P(s)/(x - s) ds + ∫ K(x, s) P(s) ds = κ (f₂' - f₁')
+    /// ```
+    ///
+    /// Layers of the [materials](Self::materials) add to it.
+    #[must_use]
+    pub fn kernel(mut self, kernel: &'b dyn RegularKernel<T>) -> Self {
+        self.beside.formula = Some(Formula::Lent(kernel));
+        self
+    }
+
+    /// Adds a regular kernel that the scene owns: see [`kernel`](Self::kernel).
+    #[must_use]
+    pub fn owned_kernel(mut self, kernel: Arc<dyn RegularKernel<T>>) -> Self {
+        self.beside.formula = Some(Formula::Owned(kernel));
+        self
+    }
+
+    /// Adds a compliance by wavenumber to that of half-planes and layers.
+    #[must_use]
+    pub fn compliance(mut self, compliance: Arc<dyn SurfaceCompliance<T>>) -> Self {
+        self.beside.compliance = Some(compliance);
+        self
     }
 
     /// Sets the conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
@@ -301,10 +340,19 @@ impl<'b, T: Real> Contact<'b, T> {
     pub(crate) fn elasticity(&self) -> Result<Option<[Elasticity<T>; 2]>, ContactError<T>> {
         match self.stiffness {
             Stiffness::Materials(materials, state) => {
-                Ok(Some(Elasticity::of_bodies(materials, state)?.0))
+                let surfaces = [materials[0].surface(), materials[1].surface()];
+                Ok(Some(Elasticity::of_bodies(surfaces, state)?.0))
             }
             _ => Ok(None),
         }
+    }
+
+    /// Returns the layers of both bodies, if they have any.
+    pub(crate) fn layers(&self) -> Result<Option<Layers<T>>, ContactError<T>> {
+        let Stiffness::Materials(materials, state) = self.stiffness else { return Ok(None) };
+        let surfaces = [materials[0].surface(), materials[1].surface()];
+        let (elasticity, modulus) = Elasticity::of_bodies(surfaces, state)?;
+        Layers::of(&materials, state, elasticity, modulus)
     }
 
     pub(crate) fn gap(&self) -> &Gap<'b, T> {

@@ -10,16 +10,19 @@
 //! last point. The panels ([`quadrature`](crate::quadrature)) need the slope only *near* given
 //! abscissae, and take points close to them: see `sample_near.rs`.
 
+mod bent;
 mod noise;
 mod resolution;
 mod sample_near;
 mod sampler;
 mod survey;
 
+use bent::Bent;
 pub(crate) use sample_near::{CurveSample, SampleCache, sample_near};
 pub use sampler::Sampler;
 pub(crate) use survey::{Asked, Guides, LowPoint, MAX_NEAR_UNCERTAINTY, Survey, crossing};
 
+use crate::kernel::Bend;
 use crate::profile::{Convexity, Piece};
 use crate::real::same;
 use crate::search::LimitSearch;
@@ -66,6 +69,7 @@ pub struct Gap<'b, T: Real> {
 pub(crate) enum Shape<'b, T: Real> {
     Lent(&'b dyn ParametricProfile<T>),
     Owned(Arc<dyn ParametricProfile<T>>),
+    Bent(Arc<Bent<'b, T>>),
 }
 
 impl<T: Real> Shape<'_, T> {
@@ -73,6 +77,7 @@ impl<T: Real> Shape<'_, T> {
         match self {
             Self::Lent(profile) => *profile,
             Self::Owned(profile) => &**profile,
+            Self::Bent(bent) => &**bent,
         }
     }
 }
@@ -269,6 +274,29 @@ impl<'b, T: Real> Gap<'b, T> {
     /// Returns the same bodies with this tilt; samples are valid for both.
     pub(crate) fn tilted(&self, tilt: T) -> Self {
         Self { tilt, ..self.clone() }
+    }
+
+    /// Returns the bodies with the slope of the gap lowered by a bend over κ.
+    pub(crate) fn bent(
+        &self,
+        bend: &Arc<Bend<'b, T>>,
+        kappa: T,
+    ) -> Result<Self, ContactError<T>> {
+        let [mut lower, mut upper] = [0, 1].map(|i| self.bodies[i].shape.clone());
+        // An endless flat stays one: it costs nothing.
+        let [first, last] = self.bodies[Body::Upper as usize].extent();
+        let is_endless = T::max_value().is_some_and(|most| last - first > T::of(0.125) * most);
+        let (body, shape, scale) = if is_endless {
+            (Body::Lower, &mut lower, kappa.recip())
+        } else {
+            (Body::Upper, &mut upper, -kappa.recip())
+        };
+        let bent = Bent::new(shape, bend, scale);
+        *shape = Shape::Bent(Arc::new(
+            bent.map_err(|source| InputError::Profile { body, source })?,
+        ));
+        let Self { inversion, tilt, watch, resolution, .. } = *self;
+        Ok(Self { convex: false, tilt, watch, resolution, ..Self::new(lower, upper, inversion)? })
     }
 
     pub(crate) fn tilt(&self) -> T {

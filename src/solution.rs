@@ -54,6 +54,7 @@ pub(crate) use contact_state::{BLIND, ContactState};
 pub use load_rates::LoadRates;
 pub use partial_slip::{PartialSlip, Shear, SlipStress, Traction};
 pub use peak::Peak;
+pub(crate) use pressure_integral::Integrals;
 pub(crate) use peak::largest_pressure;
 pub use pressure::Pressure;
 pub use region::ContactRegion;

@@ -7,6 +7,7 @@
 //! served by a [search of one limit at a time](one_by_one).
 
 mod active_set;
+mod bending;
 mod by_load;
 mod capacity;
 mod equations;
@@ -96,8 +97,8 @@ impl<'b, T: Real> Contact<'b, T> {
         let mut cost = Cost::default();
         let mut work =
             Work { integrator: &mut *integrator, workspace: &mut workspace, cost: &mut cost };
-        let found = find(self, control, &mut work)?;
-        Ok(self.solution(Arc::new(integrator), found, cost, workspace.report))
+        let (found, gap) = find(self, control, &mut work)?;
+        Ok(self.solution(Arc::new(integrator), found, cost, workspace.report, gap))
     }
 
     /// Returns the solution from the contact found.
@@ -107,8 +108,9 @@ impl<'b, T: Real> Contact<'b, T> {
         found: ContactState<T>,
         cost: Cost,
         report: Report,
+        gap: Gap<'b, T>,
     ) -> Solution<'b, T> {
-        let (gap, kappa) = (self.gap.tilted(found.tilt), self.kappa);
+        let kappa = self.kappa;
         let elasticity = self.elasticity().ok().flatten();
         Solution { gap, integrator, kappa, elasticity, found, cost, report }
     }
@@ -116,24 +118,27 @@ impl<'b, T: Real> Contact<'b, T> {
 
 /// Finds the limits with an integrator that has been reset, from the contacts in the workspace. The
 /// cost is added whether the search succeeds or not.
-pub(crate) fn find<T: Real>(
-    contact: &Contact<'_, T>,
+pub(crate) fn find<'b, T: Real>(
+    contact: &Contact<'b, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
-) -> Result<ContactState<T>, ContactError<T>> {
+) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
     let found = contact.check(control).and_then(|()| find_checked(contact, control, work));
     *work.cost += work.integrator.cost();
     found.map_err(|error| error.with_stiffness(contact.has_default_stiffness()))
 }
 
 /// Finds the contact of a checked scene, ready for its pressures.
-fn find_checked<T: Real>(
-    contact: &Contact<'_, T>,
+fn find_checked<'b, T: Real>(
+    contact: &Contact<'b, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
-) -> Result<ContactState<T>, ContactError<T>> {
+) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
     (work.workspace.report, work.workspace.cell_work) = (Report::new(), 0);
-    let mut found = find_under(contact, control, work)?;
+    let (mut found, gap) = match bending::source(contact, control)? {
+        None => (find_under(contact, control, work)?, contact.gap.clone()),
+        Some(source) => bending::find(contact, &source, control, work)?,
+    };
     // A width may be less than the rounding of x, and its load less than any number.
     check(found.interval)?;
     if found.strengths.into_iter().any(|strength| !strength.is_finite()) {
@@ -144,7 +149,7 @@ fn find_checked<T: Real>(
         return Err(SolveError::Overflow { interval: found.interval }.into());
     }
     found.ends = contact.ends();
-    let (gap, integrator) = (contact.gap.tilted(found.tilt), &mut *work.integrator);
+    let (gap, integrator) = (gap.tilted(found.tilt), &mut *work.integrator);
     if panels::several(integrator).is_none() {
         integrator.prepare(&gap, found.interval)?;
     }
@@ -154,7 +159,7 @@ fn find_checked<T: Real>(
     if contact.certified {
         certify(Solved { gap: &gap, integrator, kappa: contact.kappa, found: &found })?;
     }
-    Ok(found)
+    Ok((found, gap))
 }
 
 /// Finds the contact that meets a control.

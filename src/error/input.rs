@@ -74,6 +74,28 @@ pub enum InputError<T: Real> {
         /// The interval as given.
         interval: Interval<T>,
     },
+    /// The thickness of a layer is not a positive finite number.
+    #[error("the layer of the {body} body is {} thick: its thickness must be positive and finite", six(*thickness))]
+    InvalidThickness {
+        /// Body with this layer.
+        body: Body,
+        /// Thickness as given.
+        thickness: T,
+    },
+    /// A kernel, or a compliance by wavenumber, cannot be used.
+    #[error("{what} of the kernel is not positive and finite: {}", six(*at))]
+    Kernel {
+        /// Quantity at fault.
+        what: &'static str,
+        /// Its value; of a compliance, the wavenumber.
+        at: T,
+    },
+    /// Layers and other kernels cannot be combined with another setting.
+    #[error("a layer, or another kernel, cannot be solved: {why}")]
+    KernelNotSupported {
+        /// Reason, for the message.
+        why: &'static str,
+    },
     /// One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is out of range.
     #[error(
         "{name} = {}: distances and tolerances of Eq. (6) must be positive and finite, A and B \

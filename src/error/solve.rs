@@ -11,6 +11,20 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SolveError<T: Real> {
+    /// The bend of the bodies by a regular kernel has not converged.
+    #[error(
+        "the bend of the bodies by the kernel has not converged in {solves} solves: Eq. (1) is \
+         met to {} of its kernel's part, under {} of the load; start from a smaller load with a \
+         Solver", six(*residual), six(*share)
+    )]
+    Bending {
+        /// Residual of Eq. (1), as a share of the largest part of its kernel.
+        residual: T,
+        /// Number of solves.
+        solves: usize,
+        /// Share of the load that was reached.
+        share: T,
+    },
     /// The solve was ended by the function given to [`Contact::watch`](crate::Contact::watch).
     #[error(
         "cancelled after {evaluations} evaluations of the curves, the last from x = {}",

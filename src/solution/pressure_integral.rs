@@ -123,6 +123,76 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         }
     }
 
+    /// Returns the coefficients q_k of `P = Σ q_k cos kθ/(π L sin θ)` in one contact, at least some
+    /// of them, and more until they vanish, up to a count.
+    pub fn coefficients(
+        &self,
+        contact: usize,
+        [some, most]: [usize; 2],
+    ) -> Result<Vec<T>, ContactError<T>> {
+        let mut count = some;
+        while count < most && self.contacts[contact].breakpoints.is_empty() {
+            if let Some(q) = self.smooth_coefficients(contact, count)? {
+                return Ok(q);
+            }
+            count *= 2;
+        }
+        self.all_coefficients(contact, most)
+    }
+
+    /// Returns coefficients by the pressures at as many places (Gauss-Chebyshev), if the last of
+    /// them vanish.
+    fn smooth_coefficients(
+        &self,
+        contact: usize,
+        count: usize,
+    ) -> Result<Option<Vec<T>>, ContactError<T>> {
+        let on = self.contacts[contact].on;
+        let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(count);
+        let places: Vec<T> = (0..count).map(|i| on.at_angle(angle(i))).collect();
+        let mut bounded = vec![T::zero(); count];
+        self.density.values(&places, &mut bounded)?;
+        let weight = |x: T| T::two_pi() / T::count(count) * on.chebyshev_weight(x);
+        bounded.iter_mut().zip(&places).for_each(|(value, &x)| *value *= weight(x));
+        let mut q = vec![T::zero(); count];
+        for (i, &value) in bounded.iter().enumerate() {
+            let z = angle(i).cos();
+            let mut pair = [value, value * z];
+            for q in &mut q {
+                *q += pair[0];
+                pair = [pair[1], (z + z) * pair[1] - pair[0]];
+            }
+        }
+        q[0] *= T::of(0.5);
+        let largest = |q: &[T]| q.iter().fold(T::zero(), |most, q| most.max(q.abs()));
+        let vanish = largest(&q[count - 4..]) <= T::of(64.0) * T::epsilon() * largest(&q);
+        Ok(vanish.then_some(q))
+    }
+
+    fn all_coefficients(&self, contact: usize, count: usize) -> Result<Vec<T>, ContactError<T>> {
+        /// Coefficients that are integrated together.
+        const TOGETHER: usize = 32;
+        let on = self.contacts[contact].on;
+        let (one, mut q) = (T::one(), Vec::with_capacity(count + TOGETHER));
+        while q.len() < count {
+            let first = q.len();
+            let block = self.over_one(contact, on.centre(), |distance, strength| {
+                let z = -distance / on.half_width();
+                let (mut pair, mut block) = ([one, z], [T::zero(); TOGETHER]);
+                for k in 0..first + TOGETHER {
+                    if k >= first {
+                        block[k - first] = strength * if k == 0 { one } else { pair[0] + pair[0] };
+                    }
+                    pair = [pair[1], (z + z) * pair[1] - pair[0]];
+                }
+                block
+            })?;
+            q.extend(block);
+        }
+        q.truncate(count);
+        Ok(q)
+    }
+
     fn sum<const N: usize>(
         &self,
         contacts: &[One<T>],

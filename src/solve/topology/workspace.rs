@@ -4,6 +4,7 @@ use super::super::exterior_field::ExteriorFields;
 use super::super::newton::several::NewtonSeveral;
 use super::super::signorini_check::{Overlaps, Passed, TensionSpans};
 use crate::gap::{Asked, Cost, Gap, Survey};
+use crate::kernel::Spread;
 use crate::solution::Report;
 use crate::{ContactError, Interval, Real};
 
@@ -31,6 +32,8 @@ pub(crate) struct Workspace<T> {
     /// Cells times steps, summed over the active sets of this search.
     pub cell_work: usize,
     pub report: Report,
+    /// Pressures that bend the bodies, of a scene with a kernel, and the number of its gap.
+    pub(in super::super) spreads: Vec<Spread<T>>,
 }
 
 impl<T: Real> Workspace<T> {
@@ -48,6 +51,7 @@ impl<T: Real> Workspace<T> {
             overlaps: Overlaps::new(),
             cell_work: 0,
             report: Report::new(),
+            spreads: Vec::new(),
         }
     }
 

@@ -1,0 +1,220 @@
+//! Elastic layers.
+//!
+//! The surface of a layer of thickness h answers a pressure of wavenumber ω like a half-plane of
+//! the same material whose compliance is multiplied by K(ξ), ξ = ω h (`E = exp(-2ξ)`, μ the ratio
+//! of the shear moduli of layer and base, `κ_i = 3 - 4ν_i`):
+//!
+//! ```text
+//! K = (1 + 4χξE - λχE²)/Δ      Δ = 1 - (λ + χ + 4χξ²) E + λχE²
+//! λ = (μκ₂ - κ₁)/(1 + μκ₂)     χ = (μ - 1)/(μ + κ₁)              bonded to a half-plane
+//! λ = -κ₁                      χ = -1/κ₁                         bonded to a rigid base
+//! K = (1 - E)²/(1 + 4ξE - E²)                                    on a rigid base without friction
+//! ```
+//!
+//! λ and χ are combinations of Dundurs' constants. K - 1 goes to zero like `ξ² exp(-2ξ)`.
+
+use super::SurfaceCompliance;
+use crate::material::{Elasticity, Material};
+use crate::{Body, ContactError, InputError, PlaneState, Real};
+
+/// Layer of even thickness at the surface of a body.
+///
+/// ```
+/// use linecontact::{Base, Contact, Control, Flat, Layer, Material, PlaneState};
+/// use linecontact::profile::Parabola;
+///
+/// // A rubber cover of 10 mm on a steel core: mm, MPa, N/mm.
+/// let roller = Parabola::new(100.0, [-30.0, 30.0])?;
+/// let cover = Layer { material: Material::elastic(5.0, 0.48), thickness: 10.0, base: Base::Bonded };
+/// let contact = Contact::new(&Flat, &roller)?;
+/// let contact = contact.materials(Material::Rigid, cover, PlaneState::Strain);
+/// let nip = contact.solve(Control::Load(20.0))?;
+/// assert!(nip.a() > 4.0 && nip.a() < 10.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Layer<T> {
+    /// Material of the layer.
+    pub material: Material<T>,
+    /// Thickness h of the layer: a length.
+    pub thickness: T,
+    /// Body below the layer.
+    pub base: Base<T>,
+}
+
+/// Body below a layer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Base<T> {
+    /// Half-plane to which the layer is bonded.
+    HalfPlane(Material<T>),
+    /// Rigid base to which the layer is bonded.
+    Bonded,
+    /// Rigid base on which the layer slides without friction and from which it does not lift off.
+    Frictionless,
+}
+
+/// What a body is made of below its surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Foundation<T> {
+    /// Half-plane of one material.
+    HalfPlane(Material<T>),
+    /// Layer on a base.
+    Layer(Layer<T>),
+}
+
+impl<T> From<Material<T>> for Foundation<T> {
+    fn from(material: Material<T>) -> Self {
+        Self::HalfPlane(material)
+    }
+}
+
+impl<T> From<Layer<T>> for Foundation<T> {
+    fn from(layer: Layer<T>) -> Self {
+        Self::Layer(layer)
+    }
+}
+
+impl<T: Real> Foundation<T> {
+    /// Returns the material at the surface.
+    pub(crate) fn surface(&self) -> Material<T> {
+        match *self {
+            Self::HalfPlane(material) | Self::Layer(Layer { material, .. }) => material,
+        }
+    }
+}
+
+/// Constants of a layer, with the share of its body in the compliance of the contact.
+#[derive(Clone, Copy)]
+struct Coating<T> {
+    share: T,
+    thickness: T,
+    /// K(0) - 1.
+    at_zero: T,
+    /// `[1 - λ, 1 - χ]`; `None` on a base without friction.
+    bonded: Option<[T; 2]>,
+}
+
+/// Layers of both bodies: what their compliances add to those of half-planes.
+#[derive(Clone)]
+pub(crate) struct Layers<T> {
+    coatings: Vec<Coating<T>>,
+}
+
+impl<T: Real> Layers<T> {
+    /// Returns the layers of two bodies, given the elasticity of their surfaces and the contact
+    /// modulus; `None` without any layer.
+    pub fn of(
+        foundations: &[Foundation<T>; 2],
+        state: PlaneState,
+        surfaces: [Elasticity<T>; 2],
+        modulus: T,
+    ) -> Result<Option<Self>, ContactError<T>> {
+        let mut coatings = Vec::new();
+        for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
+            let Foundation::Layer(layer) = foundations[i] else { continue };
+            let Layer { material, thickness, base } = layer;
+            if !(thickness.is_finite() && thickness > T::zero()) {
+                return Err(InputError::InvalidThickness { body, thickness }.into());
+            }
+            // A rigid layer is a rigid body, whatever is below it.
+            if material == Material::Rigid {
+                continue;
+            }
+            let below = match base {
+                Base::HalfPlane(below) => Elasticity::of(body, below, state)?,
+                Base::Bonded | Base::Frictionless => {
+                    Elasticity { compliance: T::zero(), ratio: T::zero() }
+                }
+            };
+            let bonded = (base != Base::Frictionless).then(|| constants(surfaces[i], below));
+            let at_zero = below.compliance / surfaces[i].compliance - T::one();
+            let share = surfaces[i].compliance * modulus;
+            coatings.push(Coating { share, thickness, at_zero, bonded });
+        }
+        Ok((!coatings.is_empty()).then_some(Self { coatings }))
+    }
+}
+
+impl<T: Real> SurfaceCompliance<T> for Layers<T> {
+    fn excess(&self, wavenumber: T) -> T {
+        let excess = |coating: &Coating<T>| coating.share * coating.excess(wavenumber * coating.thickness);
+        self.coatings.iter().map(excess).fold(T::zero(), |sum, term| sum + term)
+    }
+
+    fn decay(&self) -> T {
+        let thicknesses = self.coatings.iter().map(|coating| coating.thickness);
+        T::of(2.0) * thicknesses.fold(T::one() / T::zero(), |least, other| least.min(other))
+    }
+
+    fn longest(&self) -> T {
+        let length = |coating: &Coating<T>| {
+            coating.thickness * (T::one() + coating.at_zero).max(T::one())
+        };
+        self.coatings.iter().map(length).fold(T::zero(), |most, other| most.max(other))
+    }
+
+    fn excess_at_zero(&self) -> T {
+        let at_zero = |coating: &Coating<T>| coating.share * coating.at_zero;
+        self.coatings.iter().map(at_zero).fold(T::zero(), |sum, term| sum + term)
+    }
+}
+
+/// Returns `1 - λ` and `1 - χ` for a layer bonded to a base; 1/M of a rigid base is zero.
+fn constants<T: Real>(layer: Elasticity<T>, base: Elasticity<T>) -> [T; 2] {
+    let (one, three, four) = (T::one(), T::of(3.0), T::of(4.0));
+    let [kappa, below] = [layer, base].map(|body| three - four * body.ratio);
+    // The shear modulus is M (1 - ν)/2.
+    let ratio = (one - layer.ratio) * base.compliance / (layer.compliance * (one - base.ratio));
+    [(one + kappa) / (one + ratio * below), (one + kappa) / (ratio + kappa)]
+}
+
+impl<T: Real> Coating<T> {
+    /// Returns K - 1, to rounding relative to itself: every sum is one of positive terms.
+    fn excess(&self, xi: T) -> T {
+        let (one, two, four) = (T::one(), T::of(2.0), T::of(4.0));
+        let (decay, rest) = ((-two * xi).exp(), -(-two * xi).exp_m1());
+        let Some([less_lambda, less_chi]) = self.bonded else {
+            return -two * decay * (two * xi + rest) / (four * xi * decay - (-four * xi).exp_m1());
+        };
+        let (lambda, chi) = (one - less_lambda, one - less_chi);
+        let sum = lambda * less_chi + chi * less_lambda
+            + four * chi * xi * (one + xi)
+            + two * lambda * chi * rest;
+        let delta = if chi < T::zero() {
+            (one - lambda * decay) * (one - chi * decay) - four * chi * xi * xi * decay
+        } else {
+            less_lambda * less_chi
+                + less_lambda * chi * decay * rest
+                + less_chi * lambda * rest
+                + four * chi * squares(xi, decay)
+        };
+        decay * sum / delta
+    }
+}
+
+/// Returns `(sinh²ξ - ξ²) exp(-2ξ)`, given the exponential.
+fn squares<T: Real>(xi: T, decay: T) -> T {
+    if xi > T::of(30.0) {
+        return T::of(0.25);
+    }
+    // sinh ξ - ξ, below 1.5 by its series: eleven terms leave an error of 1e-17.
+    let less = if xi < T::of(1.5) {
+        let (mut term, mut sum) = (xi * xi * xi / T::of(6.0), T::zero());
+        for k in 1..=11 {
+            sum += term;
+            term *= xi * xi / T::count((2 * k + 2) * (2 * k + 3));
+        }
+        sum
+    } else {
+        xi.sinh() - xi
+    };
+    less * (less + xi + xi) * decay
+}
