@@ -21,7 +21,7 @@ use crate::{
 };
 use edges::{Conditions, Given};
 use std::ops::ControlFlow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Two bodies to be pressed together, and the settings by which their contact is found.
 ///
@@ -144,15 +144,14 @@ impl<'b, T: Real> Contact<'b, T> {
     /// paper's Eq. (3).
     #[must_use]
     pub fn kappa(self, kappa: T) -> Self {
-        Self { kappa, stiffness: Stiffness::Kappa, ..self }
+        self.stiff(kappa, Stiffness::Kappa)
     }
 
     /// Sets κ = π E*/2 from the contact modulus E* of plane strain,
     /// `1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂` (Johnson, *Contact Mechanics*, 1985, §4.2).
     #[must_use]
     pub fn contact_modulus(self, modulus: T) -> Self {
-        let (kappa, stiffness) = (T::frac_pi_2() * modulus, Stiffness::Modulus(modulus));
-        Self { kappa, stiffness, ..self }
+        self.stiff(T::frac_pi_2() * modulus, Stiffness::Modulus(modulus))
     }
 
     /// Sets κ from the materials of body 1 and body 2. They give E*, and the
@@ -182,8 +181,13 @@ impl<'b, T: Real> Contact<'b, T> {
         let surfaces = [materials[0].surface(), materials[1].surface()];
         // The solve reports what is wrong with the materials.
         let modulus = Elasticity::of_bodies(surfaces, state).map(|(_, modulus)| modulus);
-        let this = self.contact_modulus(modulus.unwrap_or(T::one()));
-        Self { stiffness: Stiffness::Materials(materials, state), ..this }
+        let kappa = T::frac_pi_2() * modulus.unwrap_or(T::one());
+        self.stiff(kappa, Stiffness::Materials(materials, state))
+    }
+
+    fn stiff(self, kappa: T, stiffness: Stiffness<T>) -> Self {
+        let beside = Beside { table: OnceLock::new(), ..self.beside };
+        Self { kappa, stiffness, beside, ..self }
     }
 
     /// Adds a regular kernel K(x, s) to the equation of the contact, the paper's Eq. (1):
@@ -209,7 +213,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// Adds a compliance by wavenumber to that of half-planes and layers.
     #[must_use]
     pub fn compliance(mut self, compliance: Arc<dyn SurfaceCompliance<T>>) -> Self {
-        self.beside.compliance = Some(compliance);
+        self.beside = Beside { compliance: Some(compliance), table: OnceLock::new(), ..self.beside };
         self
     }
 
@@ -345,6 +349,11 @@ impl<'b, T: Real> Contact<'b, T> {
             }
             _ => Ok(None),
         }
+    }
+
+    /// Tells whether the bodies are more than half-planes.
+    pub(crate) fn has_kernel(&self) -> Result<bool, ContactError<T>> {
+        Ok(self.beside.kernel(self.layers()?)?.is_some())
     }
 
     /// Returns the layers of both bodies, if they have any.

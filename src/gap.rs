@@ -61,6 +61,8 @@ pub struct Gap<'b, T: Real> {
     watch: Option<Watch<'b, T>>,
     /// Length of the narrowest feature to be seen, if the user gives one.
     resolution: Option<T>,
+    /// Bodies before the pressure bends them, and the bend.
+    before: Option<Arc<(Self, Arc<Bend<'b, T>>)>>,
 }
 
 /// Body, lent by the user or owned. (An owned body holds no references: otherwise a contact would
@@ -234,8 +236,8 @@ impl<'b, T: Real> Gap<'b, T> {
             return Err(InputError::NoCommonRange { lower, upper }.into());
         }
         let number = MADE.fetch_add(1, Ordering::Relaxed);
-        let (tilt, watch, resolution) = (T::zero(), None, None);
-        Ok(Self { bodies, inversion, range, number, convex, tilt, watch, resolution })
+        let (tilt, watch, resolution, before) = (T::zero(), None, None, None);
+        Ok(Self { bodies, inversion, range, number, convex, tilt, watch, resolution, before })
     }
 
     /// Returns the standard deviation that noise of measurements leaves in a sum of slopes of the
@@ -296,7 +298,20 @@ impl<'b, T: Real> Gap<'b, T> {
             bent.map_err(|source| InputError::Profile { body, source })?,
         ));
         let Self { inversion, tilt, watch, resolution, .. } = *self;
-        Ok(Self { convex: false, tilt, watch, resolution, ..Self::new(lower, upper, inversion)? })
+        // Convexity that the bodies declare says nothing of the bent ones.
+        let (convex, before) = (false, Some(Arc::new((self.clone(), bend.clone()))));
+        let new = Self::new(lower, upper, inversion)?;
+        Ok(Self { convex, tilt, watch, resolution, before, ..new })
+    }
+
+    /// Returns the bend of the bodies, if they are bent.
+    pub(crate) fn bend(&self) -> Option<&Bend<'b, T>> {
+        self.before.as_ref().map(|before| &*before.1)
+    }
+
+    /// Returns the bodies before they are bent.
+    pub(crate) fn before_bend(&self) -> &Self {
+        self.before.as_ref().map_or(self, |before| &before.0)
     }
 
     pub(crate) fn tilt(&self) -> T {

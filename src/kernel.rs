@@ -18,13 +18,15 @@
 mod bend;
 mod correction;
 mod layer;
-mod wavenumbers;
+mod spread;
+mod table;
 
 pub(crate) use bend::Bend;
 pub(crate) use correction::{Correction, Kept};
 pub(crate) use layer::Layers;
 pub use layer::{Base, Foundation, Layer};
-pub(crate) use wavenumbers::{Levels, Spread};
+pub(crate) use spread::Spread;
+pub(crate) use table::Table;
 
 use crate::{Interval, Real};
 use std::sync::Arc;
@@ -62,8 +64,6 @@ pub trait SurfaceCompliance<T: Real>: Send + Sync {
     /// times the ratio of both moduli.
     fn longest(&self) -> T;
 
-    /// Returns K(0) - 1.
-    fn excess_at_zero(&self) -> T;
 }
 
 /// Kernel by a formula, lent by the user or owned.
@@ -82,31 +82,54 @@ impl<T: Real> Formula<'_, T> {
     }
 }
 
-/// All that a scene has beside half-planes, ready for contacts of some length.
+/// All that a scene has beside half-planes.
 #[derive(Clone)]
 pub(crate) struct Kernel<'b, T: Real> {
-    pub levels: Option<Arc<Levels<T>>>,
+    pub table: Option<Arc<Table<T>>>,
     pub formula: Option<Formula<'b, T>>,
 }
 
 impl<T: Real> Kernel<'_, T> {
-    /// Returns the distance of the nearest singularity of the kernel.
-    pub fn distance(&self) -> T {
-        let waves = self.levels.as_ref().map(|levels| levels.of.decay());
-        let formula = self.formula.as_ref().map(|formula| formula.kernel().nearest_singularity());
-        let both = [waves, formula].into_iter().flatten();
-        both.fold(T::one() / T::zero(), |least, distance| least.min(distance))
+    fn parts(&self) -> impl Iterator<Item = &dyn RegularKernel<T>> {
+        let table = self.table.as_deref().map(|table| table as &dyn RegularKernel<T>);
+        table.into_iter().chain(self.formula.as_ref().map(Formula::kernel))
     }
 
-    /// Returns numbers of coefficients on an interval: of a pressure that is corrected, of r, and
-    /// the most of any pressure that reach r.
+    /// Returns K(x, s).
+    pub fn slope(&self, x: T, s: T) -> T {
+        self.parts().fold(T::zero(), |sum, part| sum + part.slope(x, s))
+    }
+
+    /// Returns the integral of K by x.
+    pub fn height(&self, x: T, s: T) -> T {
+        self.parts().fold(T::zero(), |sum, part| sum + part.height(x, s))
+    }
+
+    /// Returns the distance of the nearest singularity of the kernel.
+    pub fn distance(&self) -> T {
+        let distances = self.parts().map(RegularKernel::nearest_singularity);
+        distances.fold(T::one() / T::zero(), |least, distance| least.min(distance))
+    }
+
+    /// Returns numbers of terms on an interval: of a pressure that is corrected, of r, and of a rule
+    /// that integrates pressures times the kernel.
+    ///
+    /// With the singularity at a distance c, r has singularities c above the ends of the interval,
+    /// and its series converges with the root of L/c. A rule of n nodes has an error like
+    /// `exp(-2nc/L)`.
     pub fn terms(&self, on: Interval<T>) -> [usize; 3] {
         let ratio = (T::of(2.0) * on.half_width() / self.distance()).component(0);
-        let at_least = |least: T| (0..MAX_TERMS).find(|&n| T::count(n) >= least).unwrap_or(MAX_TERMS);
-        // r has singularities above the ends of the interval: a series converges with the root.
-        let some = |first: f64, more: f64| T::of(first) + T::of(more) * ratio.sqrt();
-        [some(8.0, 6.0), some(10.0, 18.0), T::of(30.0) + T::of(10.0) * ratio].map(at_least)
+        let sum = |first: f64, by_root: f64, by_ratio: f64| {
+            at_least(T::of(first) + T::of(by_root) * ratio.sqrt() + T::of(by_ratio) * ratio)
+        };
+        let corrected = sum(8.0, 4.0, 2.2);
+        [corrected, sum(12.0, 21.0, 0.0).max(corrected), sum(30.0, 0.0, 10.0)]
     }
+}
+
+/// Returns the least number of terms that is not below a value.
+fn at_least<T: Real>(value: T) -> usize {
+    (0..MAX_TERMS).find(|&n| T::count(n) >= value).unwrap_or(MAX_TERMS)
 }
 
 /// Largest number of coefficients of a pressure.

@@ -1,9 +1,9 @@
 //! Solutions, and the quantities worked out from them: one a file.
 
-use crate::Real;
 use crate::gap::{Cost, Gap};
 use crate::material::Elasticity;
 use crate::quadrature::Integrator;
+use crate::Real;
 use std::sync::Arc;
 
 // In the order of the documentation.

@@ -135,9 +135,9 @@ fn find_checked<'b, T: Real>(
     work: &mut Work<'_, T>,
 ) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
     (work.workspace.report, work.workspace.cell_work) = (Report::new(), 0);
-    let (mut found, gap) = match bending::source(contact, control)? {
+    let (mut found, gap) = match bending::kernel(contact, control)? {
         None => (find_under(contact, control, work)?, contact.gap.clone()),
-        Some(source) => bending::find(contact, &source, control, work)?,
+        Some(kernel) => bending::find(contact, &kernel, control, work)?,
     };
     // A width may be less than the rounding of x, and its load less than any number.
     check(found.interval)?;

@@ -69,6 +69,12 @@ pub enum EvaluationError<T: Real> {
         /// Contact.
         interval: Interval<T>,
     },
+    /// The formula of a quantity is for half-planes, and the bodies have layers or another kernel.
+    #[error("{quantity} is known for half-planes only, not for bodies with a layer or another kernel")]
+    HalfPlanesOnly {
+        /// Name of the quantity.
+        quantity: &'static str,
+    },
     /// The derivatives of the contact by the load are not known.
     #[error("the derivatives by the load are not known: {why}")]
     NoLoadDerivative {

@@ -90,6 +90,18 @@ pub enum InputError<T: Real> {
         /// Its value; of a compliance, the wavenumber.
         at: T,
     },
+    /// A contact is too wide for the layer below it, or another kernel as short.
+    #[error(
+        "the contact is {} times as wide as its layer is thick, half-width by thickness, and at \
+         most {} are solved: take the layer for a foundation of springs, or its base for the body",
+        six(*ratio), six(*limit)
+    )]
+    LayerTooThin {
+        /// Half-width by thickness; by half the distance of the nearest singularity of a kernel.
+        ratio: T,
+        /// Largest ratio that is solved.
+        limit: T,
+    },
     /// Layers and other kernels cannot be combined with another setting.
     #[error("a layer, or another kernel, cannot be solved: {why}")]
     KernelNotSupported {

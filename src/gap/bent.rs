@@ -39,11 +39,7 @@ impl<'b, T: Real> Bent<'b, T> {
                 None => Piece::new(profile)?,
             };
             let Piece { k, mut ends, .. } = piece;
-            for (end, point) in ends.iter_mut().enumerate() {
-                let is_last = (i, end) == (0, 0) || (i, end) == (last, 1);
-                let by = if is_last { bend.at_once(point.x) } else { bend.at(point.x) };
-                *point = bent(*point, by, scale);
-            }
+            ends.iter_mut().for_each(|point| *point = bent(*point, bend, scale));
             Ok(Part { shape: shape.clone(), index, bend: bend.clone(), scale, k, ends })
         };
         let parts = (0..=last).map(part).collect::<Result<_, _>>()?;
@@ -52,9 +48,9 @@ impl<'b, T: Real> Bent<'b, T> {
 }
 
 /// Returns a point of a curve after the bend.
-fn bent<T: Real>(point: CurvePoint<T>, [height, slope]: [T; 2], scale: T) -> CurvePoint<T> {
+fn bent<T: Real>(point: CurvePoint<T>, bend: &Bend<'_, T>, scale: T) -> CurvePoint<T> {
     let CurvePoint { x, y, dx, dy } = point;
-    CurvePoint { x, y: y + scale * height, dx, dy: dy + scale * slope * dx }
+    CurvePoint { x, y: y + scale * bend.height(x), dx, dy: dy + scale * bend.slope(x) * dx }
 }
 
 impl<T: Real> Part<'_, T> {
@@ -74,7 +70,7 @@ impl<T: Real> ParametricProfile<T> for Part<'_, T> {
 
     fn at(&self, k: T) -> CurvePoint<T> {
         let point = self.curve(|curve| curve.at(k));
-        bent(point, self.bend.at(point.x), self.scale)
+        bent(point, &self.bend, self.scale)
     }
 
     fn slope_at(&self, x: T) -> Option<T> {
@@ -85,7 +81,7 @@ impl<T: Real> ParametricProfile<T> for Part<'_, T> {
     fn at_many(&self, k: &[T], points: &mut [CurvePoint<T>]) {
         self.curve(|curve| curve.at_many(k, points));
         for point in points {
-            *point = bent(*point, self.bend.at(point.x), self.scale);
+            *point = bent(*point, &self.bend, self.scale);
         }
     }
 

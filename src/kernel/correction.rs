@@ -4,22 +4,22 @@
 //! a change δP that may be infinite at all limits,
 //!
 //! ```text
-//! PV∫ δP/(x - s) ds + ∫ K δP ds - κ δτ = -ρ        ∫ δP = 0 (or another condition), and ∫ x δP = 0 with a tilt δτ
+//! PV∫ δP/(x - s) ds + ∫ K δP ds - κ δτ = -ρ
 //! ```
 //!
-//! and the left side integrated over each gap is `-∫ ρ`, too. To first order moved limits do not
-//! change P: its derivatives by them have the factors K_a and K_b, zero in the end. So the limits
-//! can stay, and the search converges quadratically. It need not be accurate: ρ is.
+//! and the left side integrated over each gap is `-∫ ρ`, too; the load stays, or what else is given,
+//! and with a tilt δτ the moment. To first order moved limits do not change P: its derivatives by
+//! them have the factors K_a and K_b, zero in the end. So the limits can stay, and the search
+//! converges quadratically. The correction need not be accurate: ρ is.
 //!
 //! `cos kθ/(π L sin θ)` has the Cauchy integral `-U_{k-1}/L` on its own contact; outside, with
 //! `z = (x - c)/L` and `|u| < 1` in `z = (u + 1/u)/2`, it has `uᵏ/(L sqrt(z² - 1))`, and the potential
-//! `-uᵏ/k`, or `ln(L/(2|u|))` of k = 0.
+//! `-uᵏ/k`, or `ln(L/(2|u|))` for k = 0.
 
 use super::bend::Bend;
-use super::wavenumbers::{Harmonics, Rule, Spread, Transform};
+use super::spread::{Loads, Spread, places, series};
 use super::Kernel;
 use crate::numerics::LinearSystem;
-use crate::numerics::chebyshev::value_at;
 use crate::{Interval, Real};
 
 /// Condition on the change of the pressures.
@@ -43,98 +43,56 @@ pub(crate) struct Correction<T> {
     pub residual: T,
 }
 
-/// Contact in the system: its interval, and the harmonics that the kernel needs there.
-struct Place<T> {
-    on: Interval<T>,
-    /// Number of coefficients that are corrected.
-    terms: usize,
-    waves: Option<[Harmonics<T>; 2]>,
-    /// Chebyshev coefficients of ρ.
-    rho: Vec<T>,
-}
-
-/// Chebyshev coefficients of a function on an interval from values at n nodes.
-pub(super) fn expanded<T: Real>(on: Interval<T>, n: usize, of: impl Fn(T) -> T) -> Vec<T> {
-    let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(n);
-    let values: Vec<T> =
-        (0..n).map(|i| of(on.centre() + on.half_width() * angle(i).cos())).collect();
-    let share = |k: usize| if k == 0 { T::one() } else { T::of(2.0) } / T::count(n);
-    let term = |k: usize, i: usize| values[i] * (T::count(k) * angle(i)).cos();
-    (0..n).map(|k| share(k) * (0..n).map(|i| term(k, i)).fold(T::zero(), |a, b| a + b)).collect()
-}
-
-impl<'b, T: Real> Correction<T> {
+impl<T: Real> Correction<T> {
     /// Corrects the pressures of a contact of bodies with this bend, if any; `None` if the system
     /// is singular.
     pub fn new(
-        kernel: &Kernel<'b, T>,
-        bend: Option<&Bend<'b, T>>,
-        spreads: Vec<Spread<T>>,
+        kernel: &Kernel<'_, T>,
+        bend: Option<&Bend<'_, T>>,
+        mut spreads: Vec<Spread<T>>,
         kept: Kept<T>,
     ) -> Option<Self> {
-        let bent = bend.map_or(&[][..], Bend::spreads);
-        let rule = kernel.levels.as_ref().map(|levels| levels.rule(0));
-        let harmonics = |rule| {
-            let of = |spread: &Spread<T>| {
-                let [_, some, _] = kernel.terms(spread.on);
-                Harmonics::new(rule, spread.on, some.max(spread.q.len()))
-            };
-            spreads.iter().map(of).collect::<Vec<_>>()
-        };
-        let harmonics = rule.map_or(Vec::new(), harmonics);
-        let transforms = rule.map(|rule| {
-            let old = bend.and_then(|bend| bend.whole(kernel));
-            let old = old.cloned().unwrap_or_else(|| rule.transform(bent));
-            [rule.sum(&harmonics, &spreads), old]
-        });
-        let difference = transforms.as_ref().map(|[new, old]| new.less(old));
+        let loads = Loads::of(kernel, &spreads);
         let (mut places, mut largest, mut off) = (Vec::new(), T::zero(), T::zero());
-        let mut harmonics = harmonics.into_iter();
-        for spread in &spreads {
-            let (on, [terms, all, _]) = (spread.on, kernel.terms(spread.on));
-            let mut sums = [vec![T::zero(); all], vec![T::zero(); all]];
-            let mut waves = None;
-            if let (Some(rule), Some(mut harmonics)) = (rule, harmonics.next())
-                && let (Some([new, _]), Some(less)) = (&transforms, &difference)
-            {
-                harmonics.truncate(all);
-                let weighted = harmonics.weighted(rule);
-                add(&mut sums[0], &weighted.series(&less.parts));
-                add(&mut sums[1], &weighted.series(&new.parts));
-                waves = Some([harmonics, weighted]);
-            }
-            if let Some(formula) = &kernel.formula {
-                let [new, old] = [&spreads[..], bent];
-                let of = |from, x| formula.over(from, x)[1];
-                add(&mut sums[0], &expanded(on, all, |x| of(new, x) - of(old, x)));
-                add(&mut sums[1], &expanded(on, all, |x| of(new, x)));
-            }
-            let [rho, r] = sums;
-            let size = |row: &[T]| row.iter().fold(T::zero(), |sum, a| sum + a.abs());
-            (largest, off) = (largest.max(size(&r)), off.max(size(&rho)));
-            places.push(Place { on, terms, waves, rho });
+        for &Spread { on, .. } in &spreads {
+            let [terms, all, _] = kernel.terms(on);
+            let at: Vec<T> = super::spread::places(on, all).map(|[x, _]| x).collect();
+            let new: Vec<T> = at.iter().map(|&x| loads.slope(kernel, x)).collect();
+            let old = |x: T| bend.map_or(T::zero(), |bend| bend.slope(x));
+            let rho: Vec<T> = new.iter().zip(&at).map(|(&new, &x)| new - old(x)).collect();
+            let size = |row: &[T]| row.iter().fold(T::zero(), |most, a| most.max(a.abs()));
+            (largest, off) = (largest.max(size(&new)), off.max(size(&rho)));
+            places.push(Place { on, terms, rho: series(&rho) });
         }
         let residual = if largest > T::zero() { off / largest } else { off };
-        let system = System { kernel, rule, places, kept };
-        let rises = system.rises(difference.as_ref(), &spreads, bent);
-        let change = system.solve(&rises)?;
-        let mut spreads = spreads;
+        let system = System { kernel, places, kept };
+        let rises = system.gaps().map(|ends| {
+            let [from, to] = ends.map(|x| {
+                loads.height(kernel, x) - bend.map_or(T::zero(), |bend| bend.height(x))
+            });
+            to - from
+        });
+        let change = system.solve(rises.collect())?;
         let mut at = 0;
         for (spread, place) in spreads.iter_mut().zip(&system.places) {
-            add(&mut spread.q, &change[at..at + place.terms]);
+            spread.q.iter_mut().zip(&change[at..at + place.terms]).for_each(|(q, &by)| *q += by);
             at += place.terms;
         }
         Some(Self { spreads, residual })
     }
 }
 
-fn add<T: Real>(sum: &mut [T], terms: &[T]) {
-    sum.iter_mut().zip(terms).for_each(|(sum, &term)| *sum += term);
+/// Contact in the system.
+struct Place<T> {
+    on: Interval<T>,
+    /// Number of coefficients that are corrected.
+    terms: usize,
+    /// Chebyshev coefficients of ρ.
+    rho: Vec<T>,
 }
 
 struct System<'s, 'b, T: Real> {
     kernel: &'s Kernel<'b, T>,
-    rule: Option<&'s Rule<T>>,
     places: Vec<Place<T>>,
     kept: Kept<T>,
 }
@@ -145,87 +103,66 @@ impl<T: Real> System<'_, '_, T> {
         self.places.windows(2).map(|pair| [pair[0].on.right, pair[1].on.left])
     }
 
-    /// Returns `∫ ρ` over the gaps.
-    fn rises(&self, less: Option<&Transform<T>>, new: &[Spread<T>], old: &[Spread<T>]) -> Vec<T> {
-        let height = |x: T| {
-            let waves = self.rule.zip(less).map(|(rule, less)| rule.height(less, x));
-            let formula = self.kernel.formula.as_ref();
-            let formula = formula.map(|formula| formula.over(new, x)[0] - formula.over(old, x)[0]);
-            waves.into_iter().chain(formula).fold(T::zero(), |sum, height| sum + height)
-        };
-        self.gaps().map(|[from, to]| height(to) - height(from)).collect()
-    }
-
-    /// Solves for the changes of the coefficients.
-    fn solve(&self, rises: &[T]) -> Option<Vec<T>> {
-        let tilts = usize::from(matches!(self.kept, Kept::Moment(_)));
-        let count = self.places.iter().map(|place| place.terms).sum::<usize>() + tilts;
+    /// Solves for the changes of the coefficients, given `∫ ρ` over the gaps.
+    fn solve(&self, rises: Vec<T>) -> Option<Vec<T>> {
         // By columns: each the left sides of all equations for one unknown.
-        let mut columns = Vec::with_capacity(count);
-        for (j, place) in self.places.iter().enumerate() {
-            for k in 0..place.terms {
-                columns.push(self.column(j, k));
-            }
-        }
+        let mut columns: Vec<Vec<T>> =
+            (0..self.places.len()).flat_map(|j| self.columns(j)).collect();
         if let Kept::Moment(kappa) = self.kept {
             columns.push(self.column_of_tilt(kappa));
         }
+        let count = columns.len();
         let rows: Vec<Vec<T>> =
             (0..count).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
-        let mut right = Vec::with_capacity(count);
-        for place in &self.places {
-            right.extend(second_kind(&place.rho[..place.terms]).map(|rho| -rho));
-        }
-        right.extend(rises.iter().map(|&rise| -rise));
+        let of = |place: &Place<T>| second_kind(&place.rho[..place.terms]);
+        let mut right: Vec<T> = self.places.iter().flat_map(of).chain(rises).map(|a| -a).collect();
         right.resize(count, T::zero());
         let (mut system, mut change) = (LinearSystem::new(), Vec::new());
-        let is_regular = system.factor(rows.iter().map(Vec::as_slice));
-        if !is_regular {
+        if !system.factor(rows.iter().map(Vec::as_slice)) {
             return None;
         }
         system.solve(&right, &mut change);
         Some(change)
     }
 
-    /// Returns the left sides for `cos kθ/(π L sin θ)` on one contact.
-    fn column(&self, j: usize, k: usize) -> Vec<T> {
-        let own = &self.places[j];
-        let one = || {
-            let mut q = vec![T::zero(); own.terms];
-            q[k] = T::one();
-            [Spread { on: own.on, q }]
-        };
-        let parts = own.waves.as_ref().map(|[harmonics, _]| harmonics.of_one(k));
-        let mut column = Vec::new();
+    /// Returns the left sides for the pressures `cos kθ/(π L sin θ)` on one contact.
+    fn columns(&self, j: usize) -> Vec<Vec<T>> {
+        let Place { on, terms, .. } = self.places[j];
+        let nodes: Vec<[T; 2]> = places(on, terms).collect();
+        // For each node of this contact, the kernel as a series on every contact.
+        let mut columns = vec![Vec::new(); terms];
         for (i, place) in self.places.iter().enumerate() {
-            let mut series = vec![T::zero(); place.terms];
-            if let (Some(parts), Some([_, weighted])) = (&parts, &place.waves) {
-                add(&mut series, &weighted.first(place.terms, parts));
-            }
-            if let Some(formula) = &self.kernel.formula {
-                add(&mut series, &expanded(place.on, place.terms, |x| formula.over(&one(), x)[1]));
-            }
-            if i != j {
-                let field = |x: T| outside(own.on, x, k)[0];
-                add(&mut series, &expanded(place.on, place.terms, field));
-            }
-            let start = column.len();
-            column.extend(second_kind(&series));
-            if i == j && k > 0 {
-                column[start + k - 1] -= T::one() / own.on.half_width();
+            let targets: Vec<T> = places(place.on, place.terms).map(|[x, _]| x).collect();
+            let by_node = |&[s, _]: &[T; 2]| -> Vec<T> {
+                let at = targets.iter().map(|&x| self.kernel.slope(x, s));
+                second_kind(&series(&at.collect::<Vec<_>>()))
+            };
+            let by_node: Vec<Vec<T>> = nodes.iter().map(by_node).collect();
+            for (k, column) in columns.iter_mut().enumerate() {
+                let start = column.len();
+                column.extend(mean_of(&by_node, &nodes, k));
+                if i != j {
+                    let field = targets.iter().map(|&x| outside(on, x, k)[0]).collect::<Vec<_>>();
+                    let field = second_kind(&series(&field));
+                    column[start..].iter_mut().zip(field).for_each(|(sum, a)| *sum += a);
+                } else if k > 0 {
+                    column[start + k - 1] -= on.half_width().recip();
+                }
             }
         }
-        let height = |x: T| {
-            let waves = self.rule.zip(parts.as_ref()).map(|(rule, parts)| {
-                rule.height(&Transform::of(parts.clone(), k), x)
-            });
-            let formula = self.kernel.formula.as_ref().map(|formula| formula.over(&one(), x)[0]);
-            let potential = outside(own.on, x, k)[1];
-            waves.into_iter().chain(formula).fold(potential, |sum, height| sum + height)
+        let ends: Vec<[T; 2]> = self.gaps().collect();
+        let rises = |&[s, _]: &[T; 2]| -> Vec<T> {
+            let rise = |&[from, to]: &[T; 2]| self.kernel.height(to, s) - self.kernel.height(from, s);
+            ends.iter().map(rise).collect()
         };
-        column.extend(self.gaps().map(|[from, to]| height(to) - height(from)));
-        column.extend(self.conditions(own.on, j, k));
-        column
+        let rises: Vec<Vec<T>> = nodes.iter().map(rises).collect();
+        for (k, column) in columns.iter_mut().enumerate() {
+            let potential = |x: T| outside(on, x, k)[1];
+            let own = ends.iter().map(|&[from, to]| potential(to) - potential(from));
+            column.extend(mean_of(&rises, &nodes, k).zip(own).map(|(by, own)| by + own));
+            column.extend(self.conditions(on, j, k));
+        }
+        columns
     }
 
     /// Returns the left sides of the conditions on the whole.
@@ -244,15 +181,10 @@ impl<T: Real> System<'_, '_, T> {
             }
             Kept::Width => {
                 let right = if j + 1 == self.places.len() { one } else { zero };
-                let left = if j > 0 { zero } else if k % 2 == 0 { one } else { -one };
-                vec![right + left]
+                let left = if k % 2 == 0 { one } else { -one };
+                vec![right + if j == 0 { left } else { zero }]
             }
-            Kept::Pressure(x) if on.contains(x) => {
-                let z = (x - on.centre()) / on.half_width();
-                let mut q = vec![zero; k + 1];
-                q[k] = one;
-                vec![if k == 0 { one } else { value_at(&q, z) }]
-            }
+            Kept::Pressure(x) if on.contains(x) => vec![(T::count(k) * on.angle(x)).cos()],
             Kept::Pressure(_) => vec![zero],
         }
     }
@@ -270,13 +202,29 @@ impl<T: Real> System<'_, '_, T> {
     }
 }
 
+/// Returns the means of rows over the nodes, each times `cos kθ`.
+fn mean_of<T: Real>(
+    rows: &[Vec<T>],
+    nodes: &[[T; 2]],
+    k: usize,
+) -> impl Iterator<Item = T> + use<T> {
+    let mut sums = vec![T::zero(); rows[0].len()];
+    for (i, row) in rows.iter().enumerate() {
+        let angle = T::pi() * (T::count(i) + T::of(0.5)) / T::count(nodes.len());
+        let weight = (T::count(k) * angle).cos() / T::count(nodes.len());
+        sums.iter_mut().zip(row).for_each(|(sum, &a)| *sum += weight * a);
+    }
+    sums.into_iter()
+}
+
 /// Returns the coefficients of `U_0` to `U_{n-2}` of a Chebyshev series of n terms.
-fn second_kind<T: Real>(series: &[T]) -> impl Iterator<Item = T> {
+fn second_kind<T: Real>(series: &[T]) -> Vec<T> {
     let half = T::of(0.5);
-    (1..series.len()).map(move |m| {
+    let term = |m: usize| {
         let before = if m == 1 { series[0] } else { half * series[m - 1] };
         before - series.get(m + 1).map_or(T::zero(), |&after| half * after)
-    })
+    };
+    (1..series.len()).map(term).collect()
 }
 
 /// Returns the Cauchy integral and the potential of `cos kθ/(π L sin θ)` at x, outside the interval

@@ -160,11 +160,6 @@ impl<T: Real> SurfaceCompliance<T> for Layers<T> {
         };
         self.coatings.iter().map(length).fold(T::zero(), |most, other| most.max(other))
     }
-
-    fn excess_at_zero(&self) -> T {
-        let at_zero = |coating: &Coating<T>| coating.share * coating.at_zero;
-        self.coatings.iter().map(at_zero).fold(T::zero(), |sum, term| sum + term)
-    }
 }
 
 /// Returns `1 - λ` and `1 - χ` for a layer bonded to a base; 1/M of a rigid base is zero.

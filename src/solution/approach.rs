@@ -148,6 +148,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         references: &References<T>,
     ) -> Result<Self, ContactError<T>> {
         let bodies = bodies.ok_or(InputError::NoMaterials)?;
+        solved.of_half_planes("the approach")?;
         let References { x, lower, upper } = *references;
         let half_width = solved.found.interval.half_width();
         let range = solved.gap.range();

@@ -110,6 +110,7 @@ impl<T: Real> Solution<'_, T> {
     /// ([`Midpoint`](crate::Midpoint)), unless both limits are given; where contacts appear or
     /// merge.
     pub fn load_rates(&self) -> Result<LoadRates<T>, ContactError<T>> {
+        self.solved().of_half_planes("the derivative by the load")?;
         T::load_rates(self)
     }
 }

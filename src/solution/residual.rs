@@ -4,8 +4,9 @@ use super::pressure_integral::{Density, Integrals};
 use crate::{ContactError, EvaluationError, Interval, Real, Solution};
 
 impl<T: Real> Solution<'_, T> {
-    /// Returns the residual of the integral equation, the paper's Eq. (3), at a place strictly
-    /// inside the contact: `PV∫ P(s)/(x - s) ds - κ g(x)`, a pressure.
+    /// Returns the residual of the integral equation, the paper's Eq. (1), at a place strictly
+    /// inside the contact: `PV∫ P(s)/(x - s) ds + ∫ K(x, s) P(s) ds - κ g(x)`, a pressure. Without a
+    /// layer or another kernel K is zero, and the equation is Eq. (3).
     ///
     /// The integral uses values of P alone, by a quadrature independent of the solver's, and g
     /// comes from the curves themselves. At a breakpoint g is taken on its left side; where the
@@ -38,6 +39,14 @@ impl<T: Real> Solution<'_, T> {
         let size = at_x.abs() / interval.half_width();
         let [sum] = integrals.over_as_of(size, x, difference)?;
         let slope = crate::gap::Sampler::default().slope(&self.gap, x)?;
-        Ok(sum - self.kappa * slope)
+        // The slope of the bent bodies has r as the solve has found it.
+        let bent = match self.gap.bend() {
+            Some(bend) => {
+                let kernel = |distance: T, strength: T| [strength * bend.kernel(x, x - distance)];
+                integrals.over(x, kernel)?[0] - bend.slope(x)
+            }
+            None => T::zero(),
+        };
+        Ok(sum + bent - self.kappa * slope)
     }
 }

@@ -4,7 +4,7 @@ use super::ContactState;
 use crate::gap::Gap;
 use crate::quadrature::Integrator;
 use crate::quadrature::panels::{self, Several};
-use crate::{Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, EvaluationError, Interval, Real, Side};
 
 /// Contact with all data of its pressure, prepared.
 #[derive(Clone, Copy)]
@@ -16,6 +16,14 @@ pub(crate) struct Solved<'s, T: Real> {
 }
 
 impl<'s, T: Real> Solved<'s, T> {
+    /// Refuses a quantity whose formula is for half-planes, if the bodies are not.
+    pub fn of_half_planes(&self, quantity: &'static str) -> Result<(), ContactError<T>> {
+        if self.gap.bend().is_none() {
+            return Ok(());
+        }
+        Err(EvaluationError::HalfPlanesOnly { quantity }.into())
+    }
+
     /// Returns the contacts on their panels, if they are several.
     pub fn several(&self) -> Option<&'s Several<T>> {
         panels::several(self.integrator)

@@ -169,6 +169,7 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of [`pressure`](Self::pressure).
     pub fn subsurface(&self) -> Result<Subsurface<'_, T>, ContactError<T>> {
+        self.solved().of_half_planes("the stress below the surface")?;
         T::subsurface(self)
     }
 

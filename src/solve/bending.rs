@@ -13,7 +13,7 @@
 
 use super::{Contact, Control, Work, find_under};
 use crate::gap::Gap;
-use crate::kernel::{Bend, Correction, Formula, Kept, Kernel, Levels, Spread, SurfaceCompliance};
+use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Integrals, Report, Solved};
 use crate::{ContactError, InputError, Interval, Real, SolveError};
@@ -28,50 +28,18 @@ const LEAST_PART: f64 = 1.0 / 64.0;
 /// Least share of the load from which a search starts.
 const LEAST_SHARE: f64 = 1e-9;
 
+/// Largest half-width of the contacts by the thickness of a layer: the cost grows with the square.
+const THINNEST: f64 = 100.0;
+
 /// ρ, as a share of r, at which a smaller load gives way to a larger one.
 const NEAR: f64 = 0.05;
 
-/// What a scene has beside half-planes.
-pub(super) struct Source<'b, T: Real> {
-    compliance: Option<Arc<dyn SurfaceCompliance<T>>>,
-    formula: Option<Formula<'b, T>>,
-}
-
-/// Two compliances: layers and one of the user's.
-struct Sum<T>([Arc<dyn SurfaceCompliance<T>>; 2]);
-
-impl<T: Real> SurfaceCompliance<T> for Sum<T> {
-    fn excess(&self, wavenumber: T) -> T {
-        self.0[0].excess(wavenumber) + self.0[1].excess(wavenumber)
-    }
-
-    fn decay(&self) -> T {
-        self.0[0].decay().min(self.0[1].decay())
-    }
-
-    fn longest(&self) -> T {
-        self.0[0].longest().max(self.0[1].longest())
-    }
-
-    fn excess_at_zero(&self) -> T {
-        self.0[0].excess_at_zero() + self.0[1].excess_at_zero()
-    }
-}
-
-/// Returns what the scene has beside half-planes, if anything, after a check that it can be solved.
-pub(super) fn source<'b, T: Real>(
+/// Returns the kernel of a scene, if it has one, after a check that it can be solved.
+pub(super) fn kernel<'b, T: Real>(
     contact: &Contact<'b, T>,
     control: Control<T>,
-) -> Result<Option<Source<'b, T>>, ContactError<T>> {
-    let layers = contact.layers()?.map(|layers| Arc::new(layers) as Arc<dyn SurfaceCompliance<T>>);
-    let compliance = match (layers, contact.beside.compliance.clone()) {
-        (Some(one), Some(other)) => Some(Arc::new(Sum([one, other])) as Arc<_>),
-        (one, other) => one.or(other),
-    };
-    let formula = contact.beside.formula.clone();
-    if compliance.is_none() && formula.is_none() {
-        return Ok(None);
-    }
+) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
+    let Some(kernel) = contact.beside.kernel(contact.layers()?)? else { return Ok(None) };
     let refuse = |why| Err(InputError::KernelNotSupported { why }.into());
     if contact.edges.are_adhesive() {
         return refuse("an edge is Adhesive");
@@ -82,26 +50,19 @@ pub(super) fn source<'b, T: Real>(
     if contact.edge_pressure.is_some() {
         return refuse("the edges are by Eq. (6)");
     }
-    if !contact.quadrature.integrator()?.panels().is_some() {
+    if contact.quadrature.integrator()?.panels().is_none() {
         return refuse("the quadrature is another");
     }
     if matches!(control, Control::Approach { .. }) {
         return refuse("the approach is given");
     }
-    let lengths = compliance.iter().flat_map(|of| [("the decay", of.decay()), ("the longest length", of.longest())]);
-    let distance = formula.iter().map(|of| ("the distance of the nearest singularity", of.kernel().nearest_singularity()));
-    for (what, value) in lengths.chain(distance) {
-        if !(value.is_finite() && value > T::zero()) {
-            return Err(InputError::Kernel { what, at: value }.into());
-        }
-    }
-    Ok(Some(Source { compliance, formula }))
+    Ok(Some(kernel))
 }
 
 /// Finds the contact under a control, and returns it with the bent bodies.
 pub(super) fn find<'b, T: Real>(
     contact: &Contact<'b, T>,
-    source: &Source<'b, T>,
+    kernel: &Kernel<'b, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
 ) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
@@ -110,10 +71,9 @@ pub(super) fn find<'b, T: Real>(
     let infinite = T::one() / T::zero();
     let mut bending = Bending {
         contact,
-        source,
+        kernel,
         control,
         work,
-        kernel: None,
         from: Vec::new(),
         spreads,
         part: T::one(),
@@ -148,11 +108,9 @@ fn load<T: Real>(control: Control<T>) -> Option<T> {
 
 struct Bending<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
-    source: &'s Source<'b, T>,
+    kernel: &'s Kernel<'b, T>,
     control: Control<T>,
     work: &'s mut Work<'w, T>,
-    /// Kernel, ready for the contacts last found.
-    kernel: Option<Kernel<'b, T>>,
     /// Pressures that bend the bodies now, and those from which this step began.
     spreads: Vec<Spread<T>>,
     from: Vec<Spread<T>>,
@@ -189,6 +147,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             };
             let Some(correction) = self.correct(&solved)? else { break };
             let residual = correction.residual;
+            self.check_width(&solved, residual)?;
             let is_small = residual <= T::of(4.0) * T::epsilon();
             let is_least = residual <= T::epsilon().powf(T::of(0.75))
                 && residual > T::of(0.2) * self.before;
@@ -220,6 +179,17 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         }
         let (residual, solves) = (self.before, MAX_SOLVES);
         Err(SolveError::Bending { residual, solves, share: self.share }.into())
+    }
+
+    /// Refuses a contact that is wide beside the kernel, once it is nearly known.
+    fn check_width(&self, solved: &Solve<'b, T>, residual: T) -> Result<(), ContactError<T>> {
+        let thickness = T::of(0.5) * self.kernel.distance();
+        let (ratio, limit) = (solved.found.interval.half_width() / thickness, T::of(THINNEST));
+        let is_known = residual < T::of(NEAR) && self.share >= T::one();
+        if ratio > limit && is_known || ratio > T::of(4.0) * limit {
+            return Err(InputError::LayerTooThin { ratio, limit }.into());
+        }
+        Ok(())
     }
 
     /// Takes half of the part of the correction.
@@ -283,13 +253,8 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     /// Finds the contact of the bent bodies.
     fn solve(&mut self, is_checked: bool) -> Result<Solve<'b, T>, ContactError<T>> {
         let kappa = self.contact.kappa;
-        let bend = if self.spreads.is_empty() {
-            None
-        } else {
-            let spreads = self.spreads.clone();
-            let length = length_of(spreads.iter().map(|spread| spread.on));
-            Some(Arc::new(Bend::new(self.kernel_for(length)?, spreads)))
-        };
+        let bend = (!self.spreads.is_empty())
+            .then(|| Arc::new(Bend::new(self.kernel, &self.spreads)));
         let gap = match &bend {
             Some(bend) => self.contact.gap.bent(bend, kappa)?,
             None => self.contact.gap.clone(),
@@ -308,33 +273,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         Ok(Solve { found, gap, bend, is_checked })
     }
 
-    /// Returns the kernel, ready for contacts of this length.
-    fn kernel_for(&mut self, length: T) -> Result<&Kernel<'b, T>, ContactError<T>> {
-        let serves = |kernel: &Kernel<'b, T>| {
-            kernel.levels.as_ref().is_none_or(|levels| levels.serves(length))
-        };
-        let kernel = match self.kernel.take().filter(serves) {
-            Some(kernel) => kernel,
-            None => {
-                let levels = self.source.compliance.clone().map(|of| {
-                    let what = "the compliance";
-                    Levels::new(of, length).map_err(|at| InputError::Kernel { what, at })
-                });
-                let levels = levels.transpose()?.map(Arc::new);
-                Kernel { levels, formula: self.source.formula.clone() }
-            }
-        };
-        Ok(self.kernel.insert(kernel))
-    }
-
     /// Corrects the pressures of a solve.
     fn correct(&mut self, solved: &Solve<'b, T>) -> Result<Option<Correction<T>>, ContactError<T>> {
         let (found, kappa) = (&solved.found, self.contact.kappa);
         let contacts = panels::contacts(self.work.integrator, &found.interval).to_vec();
-        let bent = solved.bend.iter().flat_map(|bend| bend.spreads()).map(|spread| spread.on);
-        let length = length_of(contacts.iter().copied().chain(bent));
-        self.kernel_for(length)?;
-        let Some(kernel) = &self.kernel else { return Ok(None) };
         let gap = &solved.gap.tilted(found.tilt);
         let pressures = Solved { gap, integrator: &*self.work.integrator, kappa, found };
         let kept = match self.control {
@@ -345,20 +287,11 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         };
         let integrals = Integrals::new(pressures)?;
         let spread = |(i, &on): (usize, &Interval<T>)| {
-            let [_, some, most] = kernel.terms(on);
+            let [_, some, most] = self.kernel.terms(on);
             Ok(Spread { on, q: integrals.coefficients(i, [some, most])? })
         };
         let spreads = contacts.iter().enumerate().map(spread);
         let spreads = spreads.collect::<Result<Vec<_>, ContactError<T>>>()?;
-        Ok(Correction::new(kernel, solved.bend.as_deref(), spreads, kept))
+        Ok(Correction::new(self.kernel, solved.bend.as_deref(), spreads, kept))
     }
-}
-
-/// Returns the distance from the first limit of some intervals to the last.
-fn length_of<T: Real>(intervals: impl Iterator<Item = Interval<T>>) -> T {
-    let hull = intervals.reduce(|one, other| Interval {
-        left: one.left.min(other.left),
-        right: one.right.max(other.right),
-    });
-    hull.map_or(T::zero(), |hull| hull.right - hull.left)
 }

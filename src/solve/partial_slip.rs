@@ -24,6 +24,9 @@ impl<'b, T: Real> Contact<'b, T> {
         if self.edges.are_adhesive() {
             return refuse("an edge is Adhesive");
         }
+        if self.has_kernel()? {
+            return refuse("the bodies have a layer or another kernel");
+        }
         if let Some(bodies) = self.elasticity()? {
             let beta = Elasticity::dundurs(bodies);
             if beta.abs() > T::of(16.0) * T::epsilon() {

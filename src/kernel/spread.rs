@@ -1,0 +1,78 @@
+//! Pressures by their coefficients.
+
+use super::Kernel;
+use crate::numerics::chebyshev::value_at;
+use crate::{Interval, Real};
+
+/// Pressure in one interval, `P = Σ q_k cos kθ/(π L sin θ)` with `x = c + L cos θ`.
+#[derive(Clone)]
+pub(crate) struct Spread<T> {
+    pub on: Interval<T>,
+    pub q: Vec<T>,
+}
+
+impl<T: Real> Spread<T> {
+    /// Returns the same pressure, multiplied by a factor.
+    pub fn times(&self, factor: T) -> Self {
+        Self { on: self.on, q: self.q.iter().map(|&q| factor * q).collect() }
+    }
+
+    /// Lists the nodes of a Gauss-Chebyshev rule, each with its share of the load.
+    fn nodes(&self, count: usize) -> impl Iterator<Item = [T; 2]> {
+        let at = move |[x, cos]: [T; 2]| [x, value_at(&self.q, cos) / T::count(count)];
+        places(self.on, count).map(at)
+    }
+}
+
+/// Lists the nodes of a Gauss-Chebyshev rule on an interval, with their cosines.
+pub(super) fn places<T: Real>(on: Interval<T>, count: usize) -> impl Iterator<Item = [T; 2]> {
+    let (centre, half_width) = (on.centre(), on.half_width());
+    (0..count).map(move |i| {
+        let cos = (T::pi() * (T::count(i) + T::of(0.5)) / T::count(count)).cos();
+        [centre + half_width * cos, cos]
+    })
+}
+
+/// Returns the Chebyshev coefficients of a polynomial, given its values at the nodes.
+pub(super) fn series<T: Real>(values: &[T]) -> Vec<T> {
+    let count = values.len();
+    let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(count);
+    let mut series = vec![T::zero(); count];
+    for (i, &value) in values.iter().enumerate() {
+        let cos = angle(i).cos();
+        let mut pair = [value, value * cos];
+        for term in &mut series {
+            *term += pair[0];
+            pair = [pair[1], (cos + cos) * pair[1] - pair[0]];
+        }
+    }
+    let share = T::of(2.0) / T::count(count);
+    series.iter_mut().for_each(|term| *term *= share);
+    series[0] *= T::of(0.5);
+    series
+}
+
+/// Pressures as loads at nodes.
+pub(crate) struct Loads<T> {
+    nodes: Vec<[T; 2]>,
+}
+
+impl<T: Real> Loads<T> {
+    pub fn of(kernel: &Kernel<'_, T>, spreads: &[Spread<T>]) -> Self {
+        let nodes = |spread: &Spread<T>| {
+            let [.., count] = kernel.terms(spread.on);
+            spread.nodes(count).collect::<Vec<_>>()
+        };
+        Self { nodes: spreads.iter().flat_map(nodes).collect() }
+    }
+
+    /// Returns r at x.
+    pub fn slope(&self, kernel: &Kernel<'_, T>, x: T) -> T {
+        self.nodes.iter().fold(T::zero(), |sum, &[s, load]| sum + load * kernel.slope(x, s))
+    }
+
+    /// Returns `∫ r dx` at x, up to a constant.
+    pub fn height(&self, kernel: &Kernel<'_, T>, x: T) -> T {
+        self.nodes.iter().fold(T::zero(), |sum, &[s, load]| sum + load * kernel.height(x, s))
+    }
+}
