@@ -10,7 +10,6 @@ pub use control::Control;
 pub use edge_pressure::EdgePressure;
 
 use crate::error::is_subnormal;
-use beside::Beside;
 use crate::gap::{Cost, Gap, Shape};
 use crate::kernel::{Formula, Foundation, Layers, RegularKernel, SurfaceCompliance};
 use crate::material::{Elasticity, PlaneState};
@@ -19,6 +18,7 @@ use crate::search::{Brent, LimitSearch, Newton};
 use crate::{
     ContactError, Ends, InputError, Interval, ParametricProfile, Real, References, SolveError,
 };
+use beside::Beside;
 use edges::{Conditions, Given};
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
@@ -213,7 +213,8 @@ impl<'b, T: Real> Contact<'b, T> {
     /// Adds a compliance by wavenumber to that of half-planes and layers.
     #[must_use]
     pub fn compliance(mut self, compliance: Arc<dyn SurfaceCompliance<T>>) -> Self {
-        self.beside = Beside { compliance: Some(compliance), table: OnceLock::new(), ..self.beside };
+        self.beside =
+            Beside { compliance: Some(compliance), table: OnceLock::new(), ..self.beside };
         self
     }
 

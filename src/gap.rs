@@ -279,11 +279,7 @@ impl<'b, T: Real> Gap<'b, T> {
     }
 
     /// Returns the bodies with the slope of the gap lowered by a bend over κ.
-    pub(crate) fn bent(
-        &self,
-        bend: &Arc<Bend<'b, T>>,
-        kappa: T,
-    ) -> Result<Self, ContactError<T>> {
+    pub(crate) fn bent(&self, bend: &Arc<Bend<'b, T>>, kappa: T) -> Result<Self, ContactError<T>> {
         let [mut lower, mut upper] = [0, 1].map(|i| self.bodies[i].shape.clone());
         // An endless flat stays one: it costs nothing.
         let [first, last] = self.bodies[Body::Upper as usize].extent();
@@ -294,9 +290,8 @@ impl<'b, T: Real> Gap<'b, T> {
             (Body::Upper, &mut upper, -kappa.recip())
         };
         let bent = Bent::new(shape, bend, scale);
-        *shape = Shape::Bent(Arc::new(
-            bent.map_err(|source| InputError::Profile { body, source })?,
-        ));
+        *shape =
+            Shape::Bent(Arc::new(bent.map_err(|source| InputError::Profile { body, source })?));
         let Self { inversion, tilt, watch, resolution, .. } = *self;
         // Convexity that the bodies declare says nothing of the bent ones.
         let (convex, before) = (false, Some(Arc::new((self.clone(), bend.clone()))));

@@ -63,7 +63,6 @@ pub trait SurfaceCompliance<T: Real>: Send + Sync {
     /// Returns the longest length on which K changes: for a layer on a soft base, its thickness
     /// times the ratio of both moduli.
     fn longest(&self) -> T;
-
 }
 
 /// Kernel by a formula, lent by the user or owned.
@@ -87,6 +86,8 @@ impl<T: Real> Formula<'_, T> {
 pub(crate) struct Kernel<'b, T: Real> {
     pub table: Option<Arc<Table<T>>>,
     pub formula: Option<Formula<'b, T>>,
+    /// Factor of both: less than 1 on the way to a solution.
+    pub share: T,
 }
 
 impl<T: Real> Kernel<'_, T> {
@@ -97,12 +98,12 @@ impl<T: Real> Kernel<'_, T> {
 
     /// Returns K(x, s).
     pub fn slope(&self, x: T, s: T) -> T {
-        self.parts().fold(T::zero(), |sum, part| sum + part.slope(x, s))
+        self.share * self.parts().fold(T::zero(), |sum, part| sum + part.slope(x, s))
     }
 
     /// Returns the integral of K by x.
     pub fn height(&self, x: T, s: T) -> T {
-        self.parts().fold(T::zero(), |sum, part| sum + part.height(x, s))
+        self.share * self.parts().fold(T::zero(), |sum, part| sum + part.height(x, s))
     }
 
     /// Returns the distance of the nearest singularity of the kernel.
@@ -111,8 +112,8 @@ impl<T: Real> Kernel<'_, T> {
         distances.fold(T::one() / T::zero(), |least, distance| least.min(distance))
     }
 
-    /// Returns numbers of terms on an interval: of a pressure that is corrected, of r, and of a rule
-    /// that integrates pressures times the kernel.
+    /// Returns numbers of terms on an interval: of a pressure that is corrected, of r, and of a
+    /// rule that integrates pressures times the kernel.
     ///
     /// With the singularity at a distance c, r has singularities c above the ends of the interval,
     /// and its series converges with the root of L/c. A rule of n nodes has an error like
@@ -123,7 +124,7 @@ impl<T: Real> Kernel<'_, T> {
             at_least(T::of(first) + T::of(by_root) * ratio.sqrt() + T::of(by_ratio) * ratio)
         };
         let corrected = sum(8.0, 4.0, 2.2);
-        [corrected, sum(12.0, 21.0, 0.0).max(corrected), sum(30.0, 0.0, 10.0)]
+        [corrected, sum(14.0, 24.0, 0.0).max(corrected), sum(30.0, 0.0, 10.0)]
     }
 }
 
@@ -133,4 +134,4 @@ fn at_least<T: Real>(value: T) -> usize {
 }
 
 /// Largest number of coefficients of a pressure.
-const MAX_TERMS: usize = 1100;
+const MAX_TERMS: usize = 2100;

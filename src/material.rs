@@ -148,7 +148,11 @@ impl<T: Real> Elasticity<T> {
         T::of(0.5) * (coupling(lower) - coupling(upper)) / (lower.compliance + upper.compliance)
     }
 
-    pub fn of(body: Body, material: Material<T>, state: PlaneState) -> Result<Self, ContactError<T>> {
+    pub fn of(
+        body: Body,
+        material: Material<T>,
+        state: PlaneState,
+    ) -> Result<Self, ContactError<T>> {
         let (zero, one) = (T::zero(), T::one());
         let Material::Elastic { youngs_modulus: modulus, poisson_ratio: ratio } = material else {
             return Ok(Self { compliance: zero, ratio: zero });

@@ -1,9 +1,9 @@
 //! Solutions, and the quantities worked out from them: one a file.
 
+use crate::Real;
 use crate::gap::{Cost, Gap};
 use crate::material::Elasticity;
 use crate::quadrature::Integrator;
-use crate::Real;
 use std::sync::Arc;
 
 // In the order of the documentation.
@@ -54,9 +54,9 @@ pub(crate) use contact_state::{BLIND, ContactState};
 pub use load_rates::LoadRates;
 pub use partial_slip::{PartialSlip, Shear, SlipStress, Traction};
 pub use peak::Peak;
-pub(crate) use pressure_integral::Integrals;
 pub(crate) use peak::largest_pressure;
 pub use pressure::Pressure;
+pub(crate) use pressure_integral::Integrals;
 pub use region::ContactRegion;
 pub use report::{Attempt, Outcome, Report, Start};
 pub(crate) use solved::Solved;

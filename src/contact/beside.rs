@@ -22,7 +22,10 @@ impl<T: Real> Default for Beside<'_, T> {
 
 impl<'b, T: Real> Beside<'b, T> {
     /// Returns the kernel of these and of the layers, if there is any.
-    pub fn kernel(&self, layers: Option<Layers<T>>) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
+    pub fn kernel(
+        &self,
+        layers: Option<Layers<T>>,
+    ) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
         let layers = layers.map(|layers| Arc::new(layers) as Arc<dyn SurfaceCompliance<T>>);
         let compliance = match (layers, self.compliance.clone()) {
             (Some(one), Some(other)) => Some(Arc::new(Sum([one, other])) as Arc<_>),
@@ -32,9 +35,9 @@ impl<'b, T: Real> Beside<'b, T> {
         if compliance.is_none() && formula.is_none() {
             return Ok(None);
         }
-        let lengths = compliance.iter().flat_map(|of| {
-            [("the decay", of.decay()), ("the longest length", of.longest())]
-        });
+        let lengths = compliance
+            .iter()
+            .flat_map(|of| [("the decay", of.decay()), ("the longest length", of.longest())]);
         let distance = formula.iter().map(|of| {
             ("the distance of the nearest singularity", of.kernel().nearest_singularity())
         });
@@ -52,7 +55,7 @@ impl<'b, T: Real> Beside<'b, T> {
             }
             (None, _) => None,
         };
-        Ok(Some(Kernel { table, formula }))
+        Ok(Some(Kernel { table, formula, share: T::one() }))
     }
 }
 

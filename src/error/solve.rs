@@ -11,18 +11,18 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SolveError<T: Real> {
-    /// The bend of the bodies by a regular kernel has not converged.
+    /// The bend of the bodies by a layer, or another regular kernel, has not converged.
     #[error(
-        "the bend of the bodies by the kernel has not converged in {solves} solves: Eq. (1) is \
-         met to {} of its kernel's part, under {} of the load; start from a smaller load with a \
-         Solver", six(*residual), six(*share)
+        "the bend of the bodies by their layer, or another kernel, has not converged in {solves} solves: \
+         Eq. (1) is met to {}, with {} of the load or of the kernel; if the contact would be wider than \
+         the bodies extend them, else lower the load", six(*residual), six(*share)
     )]
     Bending {
-        /// Residual of Eq. (1), as a share of the largest part of its kernel.
+        /// Residual of Eq. (1), as a share of its largest part.
         residual: T,
         /// Number of solves.
         solves: usize,
-        /// Share of the load that was reached.
+        /// Share of the load, or of the kernel, that was reached.
         share: T,
     },
     /// The solve was ended by the function given to [`Contact::watch`](crate::Contact::watch).

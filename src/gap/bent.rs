@@ -5,7 +5,8 @@ use crate::kernel::Bend;
 use crate::{CurvePoint, ParametricProfile, Piece, ProfileError, Real};
 use std::sync::Arc;
 
-/// Body with a bend added to its heights; it has pieces, be it only one, so that its ends are known.
+/// Body with a bend added to its heights; it has pieces, be it only one, so that its ends are
+/// known.
 pub(crate) struct Bent<'b, T: Real> {
     parts: Vec<Part<'b, T>>,
 }
@@ -35,7 +36,9 @@ impl<'b, T: Real> Bent<'b, T> {
         let part = |i: usize| {
             let index = count.map(|_| i);
             let piece = match index {
-                Some(index) => profile.piece(index).ok_or(ProfileError::Pieces { count: last + 1, index })?,
+                Some(index) => {
+                    profile.piece(index).ok_or(ProfileError::Pieces { count: last + 1, index })?
+                }
                 None => Piece::new(profile)?,
             };
             let Piece { k, mut ends, .. } = piece;

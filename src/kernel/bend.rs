@@ -38,7 +38,8 @@ impl<'b, T: Real> Bend<'b, T> {
         let ends = spreads.iter().map(|spread| spread.on);
         let margin = T::of(MARGIN) * kernel.distance();
         let on = Interval {
-            left: ends.clone().fold(T::max_value().unwrap_or(T::one()), |x, on| x.min(on.left)) - margin,
+            left: ends.clone().fold(T::max_value().unwrap_or(T::one()), |x, on| x.min(on.left))
+                - margin,
             right: ends.fold(T::min_value().unwrap_or(T::zero()), |x, on| x.max(on.right)) + margin,
         };
         // Over one contact a single series converges with the root of its width.
@@ -83,7 +84,8 @@ impl<'b, T: Real> Bend<'b, T> {
         while i + 1 < count && x > left + width * T::count(i + 1) {
             i += 1;
         }
-        let on = Interval { left: left + width * T::count(i), right: left + width * T::count(i + 1) };
+        let on =
+            Interval { left: left + width * T::count(i), right: left + width * T::count(i + 1) };
         let row = self.rows[i].get_or_init(|| self.made(on));
         Some((row, (x - on.centre()) / on.half_width()))
     }

@@ -1,24 +1,24 @@
 //! Linear correction of the pressures, with the limits held.
 //!
-//! A contact of the bent bodies meets Eq. (1) but for `ρ = ∫ K P ds - r`. On the same contacts, with
-//! a change δP that may be infinite at all limits,
+//! A contact of the bent bodies meets Eq. (1) but for `ρ = ∫ K P ds - r`. On the same contacts,
+//! with a change δP that may be infinite at all limits,
 //!
 //! ```text
 //! PV∫ δP/(x - s) ds + ∫ K δP ds - κ δτ = -ρ
 //! ```
 //!
-//! and the left side integrated over each gap is `-∫ ρ`, too; the load stays, or what else is given,
-//! and with a tilt δτ the moment. To first order moved limits do not change P: its derivatives by
-//! them have the factors K_a and K_b, zero in the end. So the limits can stay, and the search
-//! converges quadratically. The correction need not be accurate: ρ is.
+//! and the left side integrated over each gap is `-∫ ρ`, too; the load stays, or what else is
+//! given, and with a tilt δτ the moment. To first order moved limits do not change P: its
+//! derivatives by them have the factors K_a and K_b, zero in the end. So the limits can stay, and
+//! the search converges quadratically. The correction need not be accurate: ρ is.
 //!
-//! `cos kθ/(π L sin θ)` has the Cauchy integral `-U_{k-1}/L` on its own contact; outside, with
-//! `z = (x - c)/L` and `|u| < 1` in `z = (u + 1/u)/2`, it has `uᵏ/(L sqrt(z² - 1))`, and the potential
+//! `cos kθ/(π L sin θ)` has the Cauchy integral `-U_{k-1}/L` on its own contact; outside, with `z =
+//! (x - c)/L` and `|u| < 1` in `z = (u + 1/u)/2`, it has `uᵏ/(L sqrt(z² - 1))`, and the potential
 //! `-uᵏ/k`, or `ln(L/(2|u|))` for k = 0.
 
+use super::Kernel;
 use super::bend::Bend;
 use super::spread::{Loads, Spread, places, series};
-use super::Kernel;
 use crate::numerics::LinearSystem;
 use crate::{Interval, Real};
 
@@ -39,46 +39,52 @@ pub(crate) enum Kept<T> {
 pub(crate) struct Correction<T> {
     /// Corrected pressures.
     pub spreads: Vec<Spread<T>>,
-    /// Largest ρ in the contacts, as a share of the largest r.
+    /// Largest ρ in the contacts, as a share of the largest part of Eq. (1).
     pub residual: T,
 }
 
 impl<T: Real> Correction<T> {
     /// Corrects the pressures of a contact of bodies with this bend, if any; `None` if the system
-    /// is singular.
+    /// is singular. Fails with the place where the kernel is not finite.
     pub fn new(
         kernel: &Kernel<'_, T>,
         bend: Option<&Bend<'_, T>>,
         mut spreads: Vec<Spread<T>>,
         kept: Kept<T>,
-    ) -> Option<Self> {
+    ) -> Result<Option<Self>, T> {
         let loads = Loads::of(kernel, &spreads);
         let (mut places, mut largest, mut off) = (Vec::new(), T::zero(), T::zero());
-        for &Spread { on, .. } in &spreads {
+        for spread in &spreads {
+            let on = spread.on;
             let [terms, all, _] = kernel.terms(on);
             let at: Vec<T> = super::spread::places(on, all).map(|[x, _]| x).collect();
             let new: Vec<T> = at.iter().map(|&x| loads.slope(kernel, x)).collect();
+            if let Some(i) = new.iter().position(|r| !r.is_finite()) {
+                return Err(at[i]);
+            }
             let old = |x: T| bend.map_or(T::zero(), |bend| bend.slope(x));
             let rho: Vec<T> = new.iter().zip(&at).map(|(&new, &x)| new - old(x)).collect();
             let size = |row: &[T]| row.iter().fold(T::zero(), |most, a| most.max(a.abs()));
-            (largest, off) = (largest.max(size(&new)), off.max(size(&rho)));
+            // The half-planes' part is about as large as the sum of the coefficients.
+            let half_planes = spread.q.iter().fold(T::zero(), |sum, q| sum + q.abs());
+            largest = largest.max(size(&new)).max(half_planes / on.half_width());
+            off = off.max(size(&rho));
             places.push(Place { on, terms, rho: series(&rho) });
         }
         let residual = if largest > T::zero() { off / largest } else { off };
         let system = System { kernel, places, kept };
         let rises = system.gaps().map(|ends| {
-            let [from, to] = ends.map(|x| {
-                loads.height(kernel, x) - bend.map_or(T::zero(), |bend| bend.height(x))
-            });
+            let [from, to] = ends
+                .map(|x| loads.height(kernel, x) - bend.map_or(T::zero(), |bend| bend.height(x)));
             to - from
         });
-        let change = system.solve(rises.collect())?;
+        let Some(change) = system.solve(rises.collect()) else { return Ok(None) };
         let mut at = 0;
         for (spread, place) in spreads.iter_mut().zip(&system.places) {
             spread.q.iter_mut().zip(&change[at..at + place.terms]).for_each(|(q, &by)| *q += by);
             at += place.terms;
         }
-        Some(Self { spreads, residual })
+        Ok(Some(Self { spreads, residual }))
     }
 }
 
@@ -152,7 +158,8 @@ impl<T: Real> System<'_, '_, T> {
         }
         let ends: Vec<[T; 2]> = self.gaps().collect();
         let rises = |&[s, _]: &[T; 2]| -> Vec<T> {
-            let rise = |&[from, to]: &[T; 2]| self.kernel.height(to, s) - self.kernel.height(from, s);
+            let rise =
+                |&[from, to]: &[T; 2]| self.kernel.height(to, s) - self.kernel.height(from, s);
             ends.iter().map(rise).collect()
         };
         let rises: Vec<Vec<T>> = nodes.iter().map(rises).collect();
@@ -181,7 +188,7 @@ impl<T: Real> System<'_, '_, T> {
             }
             Kept::Width => {
                 let right = if j + 1 == self.places.len() { one } else { zero };
-                let left = if k % 2 == 0 { one } else { -one };
+                let left = if k.is_multiple_of(2) { one } else { -one };
                 vec![right + if j == 0 { left } else { zero }]
             }
             Kept::Pressure(x) if on.contains(x) => vec![(T::count(k) * on.angle(x)).cos()],

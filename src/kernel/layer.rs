@@ -145,7 +145,8 @@ impl<T: Real> Layers<T> {
 
 impl<T: Real> SurfaceCompliance<T> for Layers<T> {
     fn excess(&self, wavenumber: T) -> T {
-        let excess = |coating: &Coating<T>| coating.share * coating.excess(wavenumber * coating.thickness);
+        let excess =
+            |coating: &Coating<T>| coating.share * coating.excess(wavenumber * coating.thickness);
         self.coatings.iter().map(excess).fold(T::zero(), |sum, term| sum + term)
     }
 
@@ -155,9 +156,8 @@ impl<T: Real> SurfaceCompliance<T> for Layers<T> {
     }
 
     fn longest(&self) -> T {
-        let length = |coating: &Coating<T>| {
-            coating.thickness * (T::one() + coating.at_zero).max(T::one())
-        };
+        let length =
+            |coating: &Coating<T>| coating.thickness * (T::one() + coating.at_zero).max(T::one());
         self.coatings.iter().map(length).fold(T::zero(), |most, other| most.max(other))
     }
 }
@@ -180,7 +180,8 @@ impl<T: Real> Coating<T> {
             return -two * decay * (two * xi + rest) / (four * xi * decay - (-four * xi).exp_m1());
         };
         let (lambda, chi) = (one - less_lambda, one - less_chi);
-        let sum = lambda * less_chi + chi * less_lambda
+        let sum = lambda * less_chi
+            + chi * less_lambda
             + four * chi * xi * (one + xi)
             + two * lambda * chi * rest;
         let delta = if chi < T::zero() {

@@ -30,7 +30,8 @@ const PHASE: f64 = 12.0;
 
 /// Wavenumbers that count at a distance y or more: those above 48/y are left out smoothly, by a
 /// factor `1 - (1 - exp(-(ωy/48)²))¹²`. It is 1 at ω = 0 but for a term in `ω²⁴`, which with the
-/// singularity of Γ at infinity leaves an error of `24!/48²⁴`, 3e-17, and 1e-17 at 6.5 times that ω.
+/// singularity of Γ at infinity leaves an error of `24!/48²⁴`, 3e-17, and 1e-17 at 6.5 times that
+/// ω.
 const KEPT: f64 = 48.0;
 const FLATNESS: i32 = 12;
 const BEYOND: f64 = 6.5;
@@ -91,7 +92,8 @@ impl<T: Real> Table<T> {
             let terms = series.iter().rposition(counts).map_or(1, |last| last + 1);
             let mut integral = primitive(&series[..terms])[..=terms].to_vec();
             integral.iter_mut().for_each(|a| *a *= half);
-            let before = panel.checked_sub(1).map(|before| value_at(&self.row(before)[1], T::one()));
+            let before =
+                panel.checked_sub(1).map(|before| value_at(&self.row(before)[1], T::one()));
             integral[0] = before.unwrap_or(T::zero()) - value_at(&integral, -T::one());
             [series[..terms].to_vec(), integral]
         })

@@ -5,8 +5,8 @@ use crate::{ContactError, EvaluationError, Interval, Real, Solution};
 
 impl<T: Real> Solution<'_, T> {
     /// Returns the residual of the integral equation, the paper's Eq. (1), at a place strictly
-    /// inside the contact: `PV∫ P(s)/(x - s) ds + ∫ K(x, s) P(s) ds - κ g(x)`, a pressure. Without a
-    /// layer or another kernel K is zero, and the equation is Eq. (3).
+    /// inside the contact: `PV∫ P(s)/(x - s) ds + ∫ K(x, s) P(s) ds - κ g(x)`, a pressure. Without
+    /// a layer or another kernel K is zero, and the equation is Eq. (3).
     ///
     /// The integral uses values of P alone, by a quadrature independent of the solver's, and g
     /// comes from the curves themselves. At a breakpoint g is taken on its left side; where the

@@ -8,8 +8,9 @@
 //! ```
 //!
 //! Each turn about squares ρ. A contact in one interval is checked at the beginning and at the end.
-//! On a thin layer the contact of half-planes, the first one, may be wider than the bodies: then the
-//! load is smaller in the beginning.
+//! On a thin layer the contact of half-planes, the first one, may be wider than the bodies: then
+//! the load is smaller in the beginning. On a base far softer than its coating the first one is far
+//! too narrow: then the kernel is.
 
 use super::{Contact, Control, Work, find_under};
 use crate::gap::Gap;
@@ -31,8 +32,17 @@ const LEAST_SHARE: f64 = 1e-9;
 /// Largest half-width of the contacts by the thickness of a layer: the cost grows with the square.
 const THINNEST: f64 = 100.0;
 
-/// ρ, as a share of r, at which a smaller load gives way to a larger one.
+/// ρ, as a share of Eq. (1), at which a smaller load gives way to a larger one, the first factor
+/// between the two, and the least.
 const NEAR: f64 = 0.05;
+const GROWTH: f64 = 2.0;
+const LEAST_GROWTH: f64 = 1.01;
+
+/// First share of a kernel that is too strong to begin with.
+const FIRST_KERNEL: f64 = 1.0 / 64.0;
+
+/// Factor by which a contact may be too wide on the way.
+const MOST_TIMES: f64 = 2.0;
 
 /// Returns the kernel of a scene, if it has one, after a check that it can be solved.
 pub(super) fn kernel<'b, T: Real>(
@@ -66,23 +76,28 @@ pub(super) fn find<'b, T: Real>(
     control: Control<T>,
     work: &mut Work<'_, T>,
 ) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
-    let spreads = std::mem::take(&mut work.workspace.spreads);
-    let spreads = warm(spreads, control);
-    let infinite = T::one() / T::zero();
-    let mut bending = Bending {
+    let spreads = warm(std::mem::take(&mut work.workspace.spreads), control);
+    let (before, one) = (T::one() / T::zero(), T::one());
+    let [from, target] = [Vec::new(), Vec::new()];
+    let (part, share, reached, growth, fault) = (one, one, T::zero(), T::of(GROWTH), None);
+    let (kernel, along) = (kernel.clone(), Along::Load);
+    Bending {
         contact,
         kernel,
         control,
         work,
-        from: Vec::new(),
         spreads,
-        part: T::one(),
-        before: infinite,
-        share: T::one(),
-        fault: None,
-    };
-    let found = bending.find()?;
-    Ok(found)
+        from,
+        target,
+        part,
+        before,
+        along,
+        share,
+        reached,
+        growth,
+        fault,
+    }
+    .find()
 }
 
 /// Returns the pressures of the last solve, in proportion to the load.
@@ -108,136 +123,189 @@ fn load<T: Real>(control: Control<T>) -> Option<T> {
 
 struct Bending<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
-    kernel: &'s Kernel<'b, T>,
+    /// The kernel, times its share.
+    kernel: Kernel<'b, T>,
     control: Control<T>,
     work: &'s mut Work<'w, T>,
-    /// Pressures that bend the bodies now, and those from which this step began.
+    /// Pressures that bend the bodies now, those from which this step began, and the corrected
+    /// ones.
     spreads: Vec<Spread<T>>,
     from: Vec<Spread<T>>,
+    target: Vec<Spread<T>>,
     /// Part of the correction that is taken.
     part: T,
     /// ρ from which this step began.
     before: T,
-    /// Share of the load.
+    /// Share of the load or of the kernel, the share reached before, and the factor of the next
+    /// step.
+    along: Along,
     share: T,
+    reached: T,
+    growth: T,
     /// Error of the first solve, on the way to the whole load.
     fault: Option<ContactError<T>>,
+}
+
+/// What grows on the way to the whole problem.
+#[derive(Clone, Copy, PartialEq)]
+enum Along {
+    Load,
+    Kernel,
 }
 
 /// A solve on the bent bodies.
 struct Solve<'b, T: Real> {
     found: ContactState<T>,
     gap: Gap<'b, T>,
-    bend: Option<Arc<Bend<'b, T>>>,
     is_checked: bool,
 }
 
 impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn find(&mut self) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
         let (mut is_checked, mut left) = (true, T::DERIVATIVE_ORDER);
-        let mut target: Vec<Spread<T>> = Vec::new();
         for _ in 0..MAX_SOLVES {
             let solved = match self.solve(is_checked) {
                 Ok(solved) => solved,
                 Err(error) => {
-                    self.retreat(error, &target)?;
+                    self.retreat(error)?;
                     is_checked = true;
                     continue;
                 }
             };
-            let Some(correction) = self.correct(&solved)? else { break };
-            let residual = correction.residual;
-            self.check_width(&solved, residual)?;
-            let is_small = residual <= T::of(4.0) * T::epsilon();
-            let is_least = residual <= T::epsilon().powf(T::of(0.75))
-                && residual > T::of(0.2) * self.before;
+            let Some(Correction { spreads, residual }) = self.correct(&solved)? else { break };
             let is_whole = self.share >= T::one();
-            if (is_small || is_least) && is_whole && left == 0 {
+            let is_least = residual <= T::of(4.0) * T::epsilon()
+                || residual <= T::epsilon().powf(T::of(0.75))
+                    && residual > T::of(0.2) * self.before;
+            if is_least && is_whole && left == 0 {
                 if solved.is_checked {
                     let error = solved.found.error.map(|error| error + residual);
-                    self.work.workspace.spreads = correction.spreads;
+                    self.work.workspace.spreads = spreads;
                     return Ok((ContactState { error, ..solved.found }, solved.gap));
                 }
                 is_checked = true;
                 continue;
             }
-            if is_small || is_least {
+            if is_least {
                 left = left.saturating_sub(1);
             }
             let falls = residual <= (T::one() - T::of(0.25) * self.part) * self.before;
-            if !falls && !is_least && self.part > T::of(LEAST_PART) {
-                self.halve(&target);
+            if !falls && !is_least {
+                is_checked |= self.less()?;
                 continue;
             }
-            (self.from, self.before) = (std::mem::take(&mut self.spreads), residual);
-            (self.part, is_checked) = (T::one(), correction.spreads.len() > 1);
-            target = correction.spreads;
-            self.spreads.clone_from(&target);
+            // A larger load does not make it narrower.
+            if residual < T::of(NEAR) {
+                self.check_width(&solved.found, T::one())?;
+            }
+            is_checked = spreads.len() > 1;
+            self.step_to(spreads, residual);
             if !is_whole && residual < T::of(NEAR) {
-                self.load_more();
+                self.more();
             }
         }
-        let (residual, solves) = (self.before, MAX_SOLVES);
-        Err(SolveError::Bending { residual, solves, share: self.share }.into())
+        Err(self.not_converged())
     }
 
-    /// Refuses a contact that is wide beside the kernel, once it is nearly known.
-    fn check_width(&self, solved: &Solve<'b, T>, residual: T) -> Result<(), ContactError<T>> {
+    fn not_converged(&self) -> ContactError<T> {
+        let (residual, share) = (self.before, self.share);
+        SolveError::Bending { residual, solves: MAX_SOLVES, share }.into()
+    }
+
+    /// Refuses a contact that is some times too wide beside the kernel.
+    fn check_width(&self, found: &ContactState<T>, times: T) -> Result<(), ContactError<T>> {
         let thickness = T::of(0.5) * self.kernel.distance();
-        let (ratio, limit) = (solved.found.interval.half_width() / thickness, T::of(THINNEST));
-        let is_known = residual < T::of(NEAR) && self.share >= T::one();
-        if ratio > limit && is_known || ratio > T::of(4.0) * limit {
+        let (ratio, limit) = (found.interval.half_width() / thickness, T::of(THINNEST));
+        if ratio > times * limit {
             return Err(InputError::LayerTooThin { ratio, limit }.into());
         }
         Ok(())
     }
 
+    /// Takes the whole correction of a solve with this residual.
+    fn step_to(&mut self, target: Vec<Spread<T>>, residual: T) {
+        self.from = std::mem::replace(&mut self.spreads, target.clone());
+        (self.target, self.part, self.before) = (target, T::one(), residual);
+    }
+
     /// Takes half of the part of the correction.
-    fn halve(&mut self, target: &[Spread<T>]) {
+    fn halve(&mut self) {
         self.part *= T::of(0.5);
         let (less, part) = (T::one() - self.part, self.part);
         self.spreads.clear();
         self.spreads.extend(self.from.iter().map(|spread| spread.times(less)));
-        self.spreads.extend(target.iter().map(|spread| spread.times(part)));
+        self.spreads.extend(self.target.iter().map(|spread| spread.times(part)));
     }
 
-    /// Goes on from a solve that failed: with less of the correction, or with a smaller load.
-    fn retreat(
-        &mut self,
-        error: ContactError<T>,
-        target: &[Spread<T>],
-    ) -> Result<(), ContactError<T>> {
+    /// Goes on from a solve that failed: with a smaller load, or with less of the correction.
+    fn retreat(&mut self, error: ContactError<T>) -> Result<(), ContactError<T>> {
         use SolveError::{BudgetSpent, Cancelled};
-        let ends = matches!(&error, ContactError::Solve(Cancelled { .. } | BudgetSpent { .. }));
-        if ends || matches!(error, ContactError::Input(_)) || load(self.control).is_none() {
+        let ends = match &error {
+            ContactError::Solve(failed) => matches!(failed, Cancelled { .. } | BudgetSpent { .. }),
+            ContactError::Input(fault) => !matches!(fault, InputError::LayerTooThin { .. }),
+            ContactError::Evaluation(_) => true,
+        };
+        if ends || self.target.is_empty() && load(self.control).is_none() {
             return Err(error);
         }
-        if !target.is_empty() && self.part > T::of(LEAST_PART) {
-            self.halve(target);
-            return Ok(());
+        if !self.target.is_empty() {
+            return self.less().map(|_| ());
         }
-        let error = self.fault.take().unwrap_or(error);
+        // The contact of half-planes is far wider than that of a layer may be.
+        let fault = self.fault.take().unwrap_or(error);
         self.share *= T::of(0.5);
-        if self.share < T::of(LEAST_SHARE) || !target.is_empty() {
-            return Err(error);
+        if self.along != Along::Load || self.share < T::of(LEAST_SHARE) {
+            return Err(fault);
         }
-        self.fault = Some(error);
+        self.fault = Some(fault);
         self.spreads.clear();
         Ok(())
     }
 
-    /// Doubles the load, up to the whole one, and the bend with it.
-    fn load_more(&mut self) {
-        let share = (T::of(2.0) * self.share).min(T::one());
-        let factor = share / self.share;
-        self.spreads.iter_mut().for_each(|spread| *spread = spread.times(factor));
-        (self.share, self.before) = (share, T::one() / T::zero());
+    /// Takes a shorter step. Tells whether the contacts have to be sought anew.
+    fn less(&mut self) -> Result<bool, ContactError<T>> {
+        if self.from.is_empty() && self.reached > T::zero() {
+            // The load or the kernel has just grown.
+            self.growth = self.growth.sqrt();
+            if self.growth < T::of(LEAST_GROWTH) {
+                return Err(self.not_converged());
+            }
+            self.grow(self.growth * self.reached / self.share);
+        } else if self.part > T::of(LEAST_PART) {
+            self.halve();
+        } else if self.reached.is_zero() && self.share >= T::one() {
+            // On a soft base the kernel is a hundred times the half-planes' part.
+            (self.along, self.before) = (Along::Kernel, T::one() / T::zero());
+            (self.part, self.share) = (T::one(), T::of(FIRST_KERNEL));
+            for pressures in [&mut self.spreads, &mut self.from, &mut self.target] {
+                pressures.clear();
+            }
+            return Ok(true);
+        } else {
+            return Err(self.not_converged());
+        }
+        Ok(self.spreads.len() > 1)
+    }
+
+    /// Takes a larger load or more of the kernel, up to all of it.
+    fn more(&mut self) {
+        self.reached = self.share;
+        self.grow(self.growth.min(self.share.recip()));
+        self.before = T::one() / T::zero();
         self.from.clear();
+    }
+
+    /// Multiplies the share. The bend grows with the load, and stays with more of the kernel.
+    fn grow(&mut self, factor: T) {
+        self.share = (self.share * factor).min(T::one());
+        let factor = if self.along == Along::Load { factor } else { factor.recip() };
+        self.target.iter_mut().for_each(|spread| *spread = spread.times(factor));
+        self.spreads.clone_from(&self.target);
     }
 
     /// Returns the control with the present share of the load.
     fn reduced(&self) -> Control<T> {
-        let share = self.share;
+        let share = if self.along == Along::Load { self.share } else { T::one() };
         match self.control {
             Control::Load(load) => Control::Load(share * load),
             Control::Moment { load, moment, about } => {
@@ -253,11 +321,11 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     /// Finds the contact of the bent bodies.
     fn solve(&mut self, is_checked: bool) -> Result<Solve<'b, T>, ContactError<T>> {
         let kappa = self.contact.kappa;
-        let bend = (!self.spreads.is_empty())
-            .then(|| Arc::new(Bend::new(self.kernel, &self.spreads)));
-        let gap = match &bend {
-            Some(bend) => self.contact.gap.bent(bend, kappa)?,
-            None => self.contact.gap.clone(),
+        self.kernel.share = if self.along == Along::Kernel { self.share } else { T::one() };
+        let gap = if self.spreads.is_empty() {
+            self.contact.gap.clone()
+        } else {
+            self.contact.gap.bent(&Arc::new(Bend::new(&self.kernel, &self.spreads)), kappa)?
         };
         let mut scene = self.contact.clone();
         scene.gap = gap.clone();
@@ -268,9 +336,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         integrator.reset(false);
         (workspace.report, workspace.cell_work) = (Report::new(), 0);
         let found = find_under(&scene, control, self.work)?;
+        self.check_width(&found, T::of(MOST_TIMES))?;
         self.work.keep(&gap.tilted(found.tilt), found.interval)?;
         let is_checked = is_checked || self.contact.single_interval;
-        Ok(Solve { found, gap, bend, is_checked })
+        Ok(Solve { found, gap, is_checked })
     }
 
     /// Corrects the pressures of a solve.
@@ -292,6 +361,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         };
         let spreads = contacts.iter().enumerate().map(spread);
         let spreads = spreads.collect::<Result<Vec<_>, ContactError<T>>>()?;
-        Ok(Correction::new(self.kernel, solved.bend.as_deref(), spreads, kept))
+        let correction = Correction::new(&self.kernel, solved.gap.bend(), spreads, kept);
+        correction.map_err(|at| InputError::Kernel { what: "K(x, s)", at }.into())
     }
 }

@@ -20,7 +20,7 @@ fn failure(contact: &Contact<'_, f64>, load: f64) -> (Report, ContactError<f64>)
     let mut work =
         Work { integrator: &mut *integrator, workspace: &mut workspace, cost: &mut cost };
     let error =
-        find(contact, Control::Load(load), &mut work).map(|found| found.interval).unwrap_err();
+        find(contact, Control::Load(load), &mut work).map(|(found, _)| found.interval).unwrap_err();
     (workspace.report, error)
 }
 

@@ -52,6 +52,13 @@ fn number(v: &Value) -> f64 {
     v.as_str().expect("a decimal in a string").parse().expect("a number")
 }
 
+/// Returns numbers of a layer from `kernels.json`.
+pub fn kernel_values<const N: usize>(name: &str, keys: [&str; N]) -> [f64; N] {
+    let json = data("kernels");
+    let layers = "layers: R = h = a = E1 = 1, rigid parabola, nu .3 unless said";
+    keys.map(|key| number(&json[layers][name][key]))
+}
+
 pub fn reference(name: &str) -> Reference {
     let json = data(name);
     let list = |key: &str| json[key].as_array().cloned().unwrap_or_default();

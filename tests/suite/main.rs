@@ -51,6 +51,7 @@ mod held_corners;
 mod held_widths;
 mod invariants;
 mod joints;
+mod kernel;
 mod largest_values;
 mod limits;
 mod loads;

@@ -1,0 +1,139 @@
+//! What a layer or another kernel does not allow, and faults of kernels.
+
+use super::{RIGID, coated, half_plane, layer, parabola};
+use crate::common::Profile;
+use linecontact::search::Brent;
+use linecontact::{
+    Base, Contact, ContactError, Control, Edge, EdgePressure, EvaluationError, Flat, InputError,
+    Material, Midpoint, PlaneState, Reference, References, RegularKernel, Shear, SurfaceCompliance,
+};
+use std::sync::Arc;
+
+fn refusal(contact: &Contact<'_, f64>, control: Control<f64>) -> &'static str {
+    match contact.solve(control).unwrap_err() {
+        ContactError::Input(InputError::KernelNotSupported { why }) => why,
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn settings_that_no_kernel_allows() {
+    let body = parabola(6.0);
+    let contact = coated(&body, layer(1.0, 0.3, 1.0, Base::Bonded), RIGID);
+    let load = Control::Load(0.5);
+    let adhesive = contact.clone().edges(Edge::Adhesive(0.01), Edge::Adhesive(0.01));
+    assert!(refusal(&adhesive, load).contains("Adhesive"));
+    let searched = contact.clone().limit_search(&Brent::DEFAULT);
+    assert!(refusal(&searched, load).contains("strategy"));
+    let paper = contact.clone().edge_pressure(EdgePressure::zero(1e-3, 1e-9));
+    assert!(refusal(&paper, load).contains("Eq. (6)"));
+    let midpoint = contact.clone().quadrature(&Midpoint::DEFAULT);
+    assert!(refusal(&midpoint, load).contains("quadrature"));
+    let references =
+        References { x: 0.0, lower: Reference::Depth(2.0), upper: Reference::Depth(2.0) };
+    let approach = Control::Approach { approach: 0.1, references };
+    assert!(refusal(&contact, approach).contains("approach"));
+    let shear = Shear { friction: 0.3, force: 0.01, tension: 0.0 };
+    let slip = contact.partial_slip(load, shear).map(|_| ()).unwrap_err();
+    assert!(slip.to_string().contains("layer"), "{slip}");
+
+    let solution = contact.solve(load).unwrap();
+    let refused = [
+        solution.approach(&references).map(|_| ()).unwrap_err(),
+        solution.stiffness(&references).map(|_| ()).unwrap_err(),
+        solution.load_rates().map(|_| ()).unwrap_err(),
+        solution.subsurface().map(|_| ()).unwrap_err(),
+        solution.uncertainty().map(|_| ()).unwrap_err(),
+    ];
+    for error in refused {
+        let is_typed =
+            matches!(error, ContactError::Evaluation(EvaluationError::HalfPlanesOnly { .. }));
+        assert!(is_typed, "{error}");
+    }
+}
+
+#[test]
+fn impossible_layers_are_refused() {
+    let body = parabola(6.0);
+    let solve = |layer| coated(&body, layer, RIGID).solve(Control::Load(0.5)).map(|_| ());
+    for thickness in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = solve(layer(1.0, 0.3, thickness, Base::Bonded)).unwrap_err();
+        let is_typed = matches!(error, ContactError::Input(InputError::InvalidThickness { .. }));
+        assert!(is_typed, "{error}");
+    }
+    let error = solve(layer(1.0, 0.6, 1.0, Base::Bonded)).unwrap_err();
+    assert!(matches!(error, ContactError::Input(InputError::InvalidPoissonRatio { .. })));
+    let error = solve(layer(1.0, 0.3, 1.0, half_plane(-1.0, 0.3))).unwrap_err();
+    assert!(matches!(error, ContactError::Input(InputError::InvalidYoungsModulus { .. })));
+    // With both bodies rigid at the surface nothing gives way.
+    let rigid = Material::Rigid;
+    let error = coated(&body, rigid, rigid).solve(Control::Load(0.5)).map(|_| ()).unwrap_err();
+    assert!(matches!(error, ContactError::Input(InputError::BothRigid)));
+    let thin = coated(&body, layer(1.0, 0.3, 1e-3, half_plane(2.0, 0.3)), RIGID);
+    match thin.solve(Control::Load(0.5)).map(|_| ()).unwrap_err() {
+        ContactError::Input(InputError::LayerTooThin { ratio, limit }) => {
+            assert!(ratio > 100.0 && ratio < 2000.0 && limit == 100.0);
+        }
+        other => panic!("{other}"),
+    }
+}
+
+/// Compliance with a fault.
+struct Faulty {
+    excess: f64,
+    decay: f64,
+}
+
+impl SurfaceCompliance<f64> for Faulty {
+    fn excess(&self, wavenumber: f64) -> f64 {
+        self.excess * (-wavenumber).exp()
+    }
+
+    fn decay(&self) -> f64 {
+        self.decay
+    }
+
+    fn longest(&self) -> f64 {
+        1.0
+    }
+}
+
+/// Kernel with a fault.
+struct NotANumber;
+
+impl RegularKernel<f64> for NotANumber {
+    fn slope(&self, x: f64, _: f64) -> f64 {
+        if x > 0.1 { f64::NAN } else { 0.0 }
+    }
+
+    fn height(&self, _: f64, _: f64) -> f64 {
+        0.0
+    }
+
+    fn nearest_singularity(&self) -> f64 {
+        1.0
+    }
+}
+
+#[test]
+fn faulty_kernels_are_refused() {
+    let body: Profile = parabola(6.0);
+    let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(1.0);
+    let fault = |contact: Contact<'_, f64>| match contact.solve(Control::Load(0.5)) {
+        Err(ContactError::Input(InputError::Kernel { what, .. })) => what,
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("solved"),
+    };
+    for excess in [-1.5, f64::NAN, f64::INFINITY] {
+        let faulty = Arc::new(Faulty { excess, decay: 1.0 });
+        assert_eq!(fault(contact.clone().compliance(faulty)), "the compliance");
+    }
+    for decay in [0.0, -1.0, f64::NAN] {
+        let faulty = Arc::new(Faulty { excess: 0.5, decay });
+        assert_eq!(fault(contact.clone().compliance(faulty)), "the decay");
+    }
+    assert_eq!(fault(contact.clone().kernel(&NotANumber)), "K(x, s)");
+    // What is plain stays so: the kernel of nothing is not asked for.
+    let plain = contact.clone().materials(RIGID, Material::elastic(1.0, 0.3), PlaneState::Strain);
+    assert!(plain.solve(Control::Load(0.5)).unwrap().load_rates().is_ok());
+}
