@@ -13,4 +13,5 @@ mod autodiff;
 mod derivatives;
 mod derivatives_several;
 mod finite_roller;
+mod kernels;
 mod sweep;
