@@ -56,8 +56,8 @@ impl<T: Real> Correction<T> {
         let (mut places, mut largest, mut off) = (Vec::new(), T::zero(), T::zero());
         for spread in &spreads {
             let on = spread.on;
-            let [terms, all, _] = kernel.terms(on);
-            let at: Vec<T> = super::spread::places(on, all).map(|[x, _]| x).collect();
+            let [terms, ..] = kernel.terms(on);
+            let at: Vec<T> = super::spread::places(on, terms).map(|[x, _]| x).collect();
             let new: Vec<T> = at.iter().map(|&x| loads.slope(kernel, x)).collect();
             if let Some(i) = new.iter().position(|r| !r.is_finite()) {
                 return Err(at[i]);
@@ -81,6 +81,7 @@ impl<T: Real> Correction<T> {
         let Some(change) = system.solve(rises.collect()) else { return Ok(None) };
         let mut at = 0;
         for (spread, place) in spreads.iter_mut().zip(&system.places) {
+            spread.q.resize(spread.q.len().max(place.terms), T::zero());
             spread.q.iter_mut().zip(&change[at..at + place.terms]).for_each(|(q, &by)| *q += by);
             at += place.terms;
         }
@@ -120,7 +121,7 @@ impl<T: Real> System<'_, '_, T> {
         let count = columns.len();
         let rows: Vec<Vec<T>> =
             (0..count).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
-        let of = |place: &Place<T>| second_kind(&place.rho[..place.terms]);
+        let of = |place: &Place<T>| second_kind(&place.rho);
         let mut right: Vec<T> = self.places.iter().flat_map(of).chain(rises).map(|a| -a).collect();
         right.resize(count, T::zero());
         let (mut system, mut change) = (LinearSystem::new(), Vec::new());

@@ -59,20 +59,17 @@ pub(crate) struct Loads<T> {
 
 impl<T: Real> Loads<T> {
     pub fn of(kernel: &Kernel<'_, T>, spreads: &[Spread<T>]) -> Self {
-        let nodes = |spread: &Spread<T>| {
-            let [.., count] = kernel.terms(spread.on);
-            spread.nodes(count).collect::<Vec<_>>()
-        };
+        let nodes = |spread: &Spread<T>| spread.nodes(kernel.nodes(spread)).collect::<Vec<_>>();
         Self { nodes: spreads.iter().flat_map(nodes).collect() }
     }
 
     /// Returns r at x.
     pub fn slope(&self, kernel: &Kernel<'_, T>, x: T) -> T {
-        self.nodes.iter().fold(T::zero(), |sum, &[s, load]| sum + load * kernel.slope(x, s))
+        kernel.sum(0, x, &self.nodes)
     }
 
     /// Returns `∫ r dx` at x, up to a constant.
     pub fn height(&self, kernel: &Kernel<'_, T>, x: T) -> T {
-        self.nodes.iter().fold(T::zero(), |sum, &[s, load]| sum + load * kernel.height(x, s))
+        kernel.sum(1, x, &self.nodes)
     }
 }

@@ -10,7 +10,8 @@
 
 use super::{RegularKernel, SurfaceCompliance};
 use crate::Real;
-use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, Table as Nodes, primitive, value_at};
+use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, Table as Nodes, primitive, value_at, values};
+use crate::numerics::dot;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use std::sync::{Arc, OnceLock};
 
@@ -18,6 +19,9 @@ use std::sync::{Arc, OnceLock};
 /// terms leaves an error of 1e-16.
 const FIRST_ENDS: [f64; 3] = [0.5, 1.0, 2.0];
 const GROWTH: f64 = 1.75;
+
+/// Number of values that are summed together.
+const LANES: usize = 8;
 
 /// Number of panels: distances up to 1e18 c.
 const PANELS: usize = 78;
@@ -62,12 +66,45 @@ impl<T: Real> Table<T> {
         fault.map_or(Ok(Self { of, ends, rows }), Err)
     }
 
-    /// Returns Γ (0) or its integral (1) at a distance, not negative.
-    fn value(&self, which: usize, distance: T) -> T {
+    /// Returns the panel of a distance, and the place in it from -1 to 1.
+    fn place(&self, distance: T) -> (usize, T) {
         let panel = self.ends.iter().position(|&end| distance <= end).unwrap_or(PANELS - 1);
         let [from, to] = self.panel(panel);
-        let z = (distance - from - (to - distance)) / (to - from);
+        (panel, (distance - from - (to - distance)) / (to - from))
+    }
+
+    /// Returns Γ (0) or its integral (1) at a distance, not negative.
+    fn value(&self, which: usize, distance: T) -> T {
+        let (panel, z) = self.place(distance);
         value_at(&self.row(panel)[which], z)
+    }
+
+    /// Returns the sum of Γ, or of its integral, over loads at some places. Neighbours on one panel
+    /// are summed together.
+    pub fn sum(&self, which: usize, x: T, loads: &[[T; 2]]) -> T {
+        let (mut total, mut z, mut weights, mut count) =
+            (T::zero(), [T::zero(); LANES], [T::zero(); LANES], 0);
+        let mut on = 0;
+        let mut flush = |panel: usize, z: &[T; LANES], weights: &mut [T; LANES]| {
+            let values = values(&self.row(panel)[which], z);
+            total += dot(&values, &*weights);
+            *weights = [T::zero(); LANES];
+        };
+        for &[s, load] in loads {
+            let (panel, place) = self.place((x - s).abs());
+            if count == LANES || count > 0 && panel != on {
+                flush(on, &z, &mut weights);
+                count = 0;
+            }
+            on = panel;
+            // Γ is odd, and its integral is even.
+            (z[count], weights[count]) = (place, if which == 0 && x < s { -load } else { load });
+            count += 1;
+        }
+        if count > 0 {
+            flush(on, &z, &mut weights);
+        }
+        total
     }
 
     fn panel(&self, panel: usize) -> [T; 2] {

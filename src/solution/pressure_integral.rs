@@ -165,7 +165,9 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         }
         q[0] *= T::of(0.5);
         let largest = |q: &[T]| q.iter().fold(T::zero(), |most, q| most.max(q.abs()));
-        let vanish = largest(&q[count - 4..]) <= T::of(64.0) * T::epsilon() * largest(&q);
+        let least = T::epsilon() * largest(&q);
+        let vanish = largest(&q[count - 4..]) <= T::of(64.0) * least;
+        q.truncate(q.iter().rposition(|q| q.abs() > least).map_or(1, |last| last + 1));
         Ok(vanish.then_some(q))
     }
 
