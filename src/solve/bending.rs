@@ -251,6 +251,11 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         if !self.target.is_empty() {
             return self.less().map(|_| ());
         }
+        if !self.spreads.is_empty() {
+            // The pressures of the last solve were those of another scene.
+            self.spreads.clear();
+            return Ok(());
+        }
         // The contact of half-planes is far wider than that of a layer may be.
         let fault = self.fault.take().unwrap_or(error);
         self.share *= T::of(0.5);
@@ -258,7 +263,6 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             return Err(fault);
         }
         self.fault = Some(fault);
-        self.spreads.clear();
         Ok(())
     }
 

@@ -46,7 +46,15 @@ fn random_coated_bodies_meet_the_equation() {
         });
         let kappa = PI / 2.0 / (compliance + other_compliance);
         let load = kappa * random.power_of_ten(-2.0, -0.5);
-        let solution = match coated(&body, one, other).solve(Control::Load(load)) {
+        // Each other body turns until the load acts at a given place.
+        let at = random.within(-0.3, 0.3);
+        let control = if seed % 2 == 0 {
+            Control::Load(load)
+        } else {
+            Control::CentreOfPressure { load, at }
+        };
+        let contact = coated(&body, one, other);
+        let solution = match contact.solve(control) {
             Ok(solution) => solution,
             Err(error) => {
                 println!("{seed}: {error}");
@@ -57,7 +65,12 @@ fn random_coated_bodies_meet_the_equation() {
         let share = |compliance: f64| compliance * kappa / (PI / 2.0);
         let mut layers = vec![(share(compliance), one)];
         layers.extend(second.map(|second| (share(other_compliance), second)));
-        let off = residual(&solution, kappa, &layers, slope);
+        let tilt = solution.tilt();
+        let off = residual(&solution, kappa, &layers, |x| slope(x) + tilt);
+        if seed % 2 == 1 {
+            let centre = solution.centre_of_pressure().unwrap();
+            assert!((centre - at).abs() < 1e-12 * solution.hull().half_width().max(1.0));
+        }
         assert!(off < 1e-8, "{seed}: {off:e}");
         assert!(solution.certify().is_ok(), "{seed}: {:?}", solution.certify());
     }
