@@ -11,8 +11,8 @@ pub use edge_pressure::EdgePressure;
 
 use crate::error::is_subnormal;
 use crate::gap::{Cost, Gap, Shape};
-use crate::kernel::{Formula, Foundation, Layers, RegularKernel, SurfaceCompliance};
-use crate::material::{Elasticity, PlaneState};
+use crate::kernel::{Formula, Kernel, Layers, RegularKernel, SurfaceCompliance};
+use crate::material::{Elasticity, Foundation, PlaneState};
 use crate::quadrature::{Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
 use crate::{
@@ -178,9 +178,8 @@ impl<'b, T: Real> Contact<'b, T> {
         state: PlaneState,
     ) -> Self {
         let materials = [lower.into(), upper.into()];
-        let surfaces = [materials[0].surface(), materials[1].surface()];
         // The solve reports what is wrong with the materials.
-        let modulus = Elasticity::of_bodies(surfaces, state).map(|(_, modulus)| modulus);
+        let modulus = Elasticity::of_bodies(&materials, state).map(|(_, modulus)| modulus);
         let kappa = T::frac_pi_2() * modulus.unwrap_or(T::one());
         self.stiff(kappa, Stiffness::Materials(materials, state))
     }
@@ -345,24 +344,15 @@ impl<'b, T: Real> Contact<'b, T> {
     pub(crate) fn elasticity(&self) -> Result<Option<[Elasticity<T>; 2]>, ContactError<T>> {
         match self.stiffness {
             Stiffness::Materials(materials, state) => {
-                let surfaces = [materials[0].surface(), materials[1].surface()];
-                Ok(Some(Elasticity::of_bodies(surfaces, state)?.0))
+                Ok(Some(Elasticity::of_bodies(&materials, state)?.0))
             }
             _ => Ok(None),
         }
     }
 
-    /// Tells whether the bodies are more than half-planes.
-    pub(crate) fn has_kernel(&self) -> Result<bool, ContactError<T>> {
-        Ok(self.beside.kernel(self.layers()?)?.is_some())
-    }
-
-    /// Returns the layers of both bodies, if they have any.
-    pub(crate) fn layers(&self) -> Result<Option<Layers<T>>, ContactError<T>> {
-        let Stiffness::Materials(materials, state) = self.stiffness else { return Ok(None) };
-        let surfaces = [materials[0].surface(), materials[1].surface()];
-        let (elasticity, modulus) = Elasticity::of_bodies(surfaces, state)?;
-        Layers::of(&materials, state, elasticity, modulus)
+    /// Returns what the bodies have beside half-planes, if anything.
+    pub(crate) fn kernel_of_bodies(&self) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
+        self.beside.kernel(self.elasticity()?.and_then(|bodies| Layers::of(&bodies)))
     }
 
     pub(crate) fn gap(&self) -> &Gap<'b, T> {

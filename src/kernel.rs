@@ -17,14 +17,13 @@
 
 mod bend;
 mod correction;
-mod layer;
+mod layers;
 mod spread;
 mod table;
 
 pub(crate) use bend::Bend;
 pub(crate) use correction::{Correction, Kept};
-pub(crate) use layer::Layers;
-pub use layer::{Base, Foundation, Layer};
+pub(crate) use layers::Layers;
 pub(crate) use spread::Spread;
 pub(crate) use table::Table;
 

@@ -12,6 +12,11 @@
 //! half-plane: limits and pressure are as exact for unlike bodies as for like ones. Friction would
 //! couple the two directions (Johnson, §7.2).
 
+mod layer;
+
+pub(crate) use layer::Coating;
+pub use layer::{Base, Foundation, Layer};
+
 use crate::{Body, ContactError, InputError, Real};
 
 /// Isotropic elastic material, or a rigid body.
@@ -110,7 +115,7 @@ impl PlaneState {
         lower: Material<T>,
         upper: Material<T>,
     ) -> Result<T, ContactError<T>> {
-        Ok(Elasticity::of_bodies([lower, upper], self)?.1)
+        Ok(Elasticity::of_bodies(&[lower.into(), upper.into()], self)?.1)
     }
 }
 
@@ -121,16 +126,18 @@ pub(crate) struct Elasticity<T> {
     pub compliance: T,
     /// ν in plane strain, `ν/(1 + ν)` in plane stress.
     pub ratio: T,
+    /// Layer at the surface, if there is one; the other constants are those of its material.
+    pub layer: Option<Coating<T>>,
 }
 
 impl<T: Real> Elasticity<T> {
     /// Returns the elastic constants of both bodies, and their contact modulus.
     pub fn of_bodies(
-        materials: [Material<T>; 2],
+        foundations: &[Foundation<T>; 2],
         state: PlaneState,
     ) -> Result<([Self; 2], T), ContactError<T>> {
-        let lower = Self::of(Body::Lower, materials[0], state)?;
-        let upper = Self::of(Body::Upper, materials[1], state)?;
+        let lower = foundations[0].elasticity(Body::Lower, state)?;
+        let upper = foundations[1].elasticity(Body::Upper, state)?;
         let compliance = lower.compliance + upper.compliance;
         if compliance.is_zero() {
             return Err(InputError::BothRigid.into());
@@ -148,26 +155,21 @@ impl<T: Real> Elasticity<T> {
         T::of(0.5) * (coupling(lower) - coupling(upper)) / (lower.compliance + upper.compliance)
     }
 
-    pub fn of(
-        body: Body,
-        material: Material<T>,
-        state: PlaneState,
-    ) -> Result<Self, ContactError<T>> {
+    fn of(body: Body, material: Material<T>, state: PlaneState) -> Result<Self, ContactError<T>> {
         let (zero, one) = (T::zero(), T::one());
         let Material::Elastic { youngs_modulus: modulus, poisson_ratio: ratio } = material else {
-            return Ok(Self { compliance: zero, ratio: zero });
+            return Ok(Self { compliance: zero, ratio: zero, layer: None });
         };
         let compliance = one / modulus;
         if !(modulus.is_finite() && modulus > zero && compliance.is_finite()) {
             return Err(InputError::InvalidYoungsModulus { body, modulus }.into());
         }
         checked_ratio(ratio)?;
-        Ok(match state {
-            PlaneState::Strain => {
-                Self { compliance: (one - ratio) * (one + ratio) * compliance, ratio }
-            }
-            PlaneState::Stress => Self { compliance, ratio: ratio / (one + ratio) },
-        })
+        let [compliance, ratio] = match state {
+            PlaneState::Strain => [(one - ratio) * (one + ratio) * compliance, ratio],
+            PlaneState::Stress => [compliance, ratio / (one + ratio)],
+        };
+        Ok(Self { compliance, ratio, layer: None })
     }
 }
 

@@ -49,7 +49,7 @@ pub(super) fn kernel<'b, T: Real>(
     contact: &Contact<'b, T>,
     control: Control<T>,
 ) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
-    let Some(kernel) = contact.beside.kernel(contact.layers()?)? else { return Ok(None) };
+    let Some(kernel) = contact.kernel_of_bodies()? else { return Ok(None) };
     let refuse = |why| Err(InputError::KernelNotSupported { why }.into());
     if contact.edges.are_adhesive() {
         return refuse("an edge is Adhesive");

@@ -24,7 +24,7 @@ impl<'b, T: Real> Contact<'b, T> {
         if self.edges.are_adhesive() {
             return refuse("an edge is Adhesive");
         }
-        if self.has_kernel()? {
+        if self.kernel_of_bodies()?.is_some() {
             return refuse("the bodies have a layer or another kernel");
         }
         if let Some(bodies) = self.elasticity()? {

@@ -13,8 +13,7 @@
 //!
 //! λ and χ are combinations of Dundurs' constants. K - 1 goes to zero like `ξ² exp(-2ξ)`.
 
-use super::SurfaceCompliance;
-use crate::material::{Elasticity, Material};
+use super::{Elasticity, Material};
 use crate::{Body, ContactError, InputError, PlaneState, Real};
 
 /// Layer of even thickness at the surface of a body.
@@ -83,89 +82,48 @@ impl<T> From<Layer<T>> for Foundation<T> {
 }
 
 impl<T: Real> Foundation<T> {
-    /// Returns the material at the surface.
-    pub(crate) fn surface(&self) -> Material<T> {
-        match *self {
-            Self::HalfPlane(material) | Self::Layer(Layer { material, .. }) => material,
+    /// Returns the elastic constants of the surface, with those of a layer below it.
+    pub(super) fn elasticity(
+        &self,
+        body: Body,
+        state: PlaneState,
+    ) -> Result<Elasticity<T>, ContactError<T>> {
+        let Layer { material, thickness, base } = match *self {
+            Self::HalfPlane(material) => return Elasticity::of(body, material, state),
+            Self::Layer(layer) => layer,
+        };
+        if !(thickness.is_finite() && thickness > T::zero()) {
+            return Err(InputError::InvalidThickness { body, thickness }.into());
         }
+        let surface = Elasticity::of(body, material, state)?;
+        let below = match base {
+            Base::HalfPlane(below) => Elasticity::of(body, below, state)?,
+            Base::Bonded | Base::Frictionless => Elasticity::of(body, Material::Rigid, state)?,
+        };
+        // A rigid layer is a rigid body, whatever is below it.
+        let layer = (material != Material::Rigid).then(|| Coating {
+            thickness,
+            at_zero: below.compliance / surface.compliance - T::one(),
+            bonded: (base != Base::Frictionless).then(|| constants(&surface, &below)),
+        });
+        Ok(Elasticity { layer, ..surface })
     }
 }
 
-/// Constants of a layer, with the share of its body in the compliance of the contact.
-#[derive(Clone, Copy)]
-struct Coating<T> {
-    share: T,
-    thickness: T,
+/// Constants of a layer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Coating<T> {
+    pub thickness: T,
     /// K(0) - 1.
-    at_zero: T,
+    pub at_zero: T,
     /// `[1 - λ, 1 - χ]`; `None` on a base without friction.
     bonded: Option<[T; 2]>,
 }
 
-/// Layers of both bodies: what their compliances add to those of half-planes.
-#[derive(Clone)]
-pub(crate) struct Layers<T> {
-    coatings: Vec<Coating<T>>,
-}
-
-impl<T: Real> Layers<T> {
-    /// Returns the layers of two bodies, given the elasticity of their surfaces and the contact
-    /// modulus; `None` without any layer.
-    pub fn of(
-        foundations: &[Foundation<T>; 2],
-        state: PlaneState,
-        surfaces: [Elasticity<T>; 2],
-        modulus: T,
-    ) -> Result<Option<Self>, ContactError<T>> {
-        let mut coatings = Vec::new();
-        for (i, body) in [Body::Lower, Body::Upper].into_iter().enumerate() {
-            let Foundation::Layer(layer) = foundations[i] else { continue };
-            let Layer { material, thickness, base } = layer;
-            if !(thickness.is_finite() && thickness > T::zero()) {
-                return Err(InputError::InvalidThickness { body, thickness }.into());
-            }
-            // A rigid layer is a rigid body, whatever is below it.
-            if material == Material::Rigid {
-                continue;
-            }
-            let below = match base {
-                Base::HalfPlane(below) => Elasticity::of(body, below, state)?,
-                Base::Bonded | Base::Frictionless => {
-                    Elasticity { compliance: T::zero(), ratio: T::zero() }
-                }
-            };
-            let bonded = (base != Base::Frictionless).then(|| constants(surfaces[i], below));
-            let at_zero = below.compliance / surfaces[i].compliance - T::one();
-            let share = surfaces[i].compliance * modulus;
-            coatings.push(Coating { share, thickness, at_zero, bonded });
-        }
-        Ok((!coatings.is_empty()).then_some(Self { coatings }))
-    }
-}
-
-impl<T: Real> SurfaceCompliance<T> for Layers<T> {
-    fn excess(&self, wavenumber: T) -> T {
-        let excess =
-            |coating: &Coating<T>| coating.share * coating.excess(wavenumber * coating.thickness);
-        self.coatings.iter().map(excess).fold(T::zero(), |sum, term| sum + term)
-    }
-
-    fn decay(&self) -> T {
-        let thicknesses = self.coatings.iter().map(|coating| coating.thickness);
-        T::of(2.0) * thicknesses.fold(T::one() / T::zero(), |least, other| least.min(other))
-    }
-
-    fn longest(&self) -> T {
-        let length =
-            |coating: &Coating<T>| coating.thickness * (T::one() + coating.at_zero).max(T::one());
-        self.coatings.iter().map(length).fold(T::zero(), |most, other| most.max(other))
-    }
-}
-
 /// Returns `1 - λ` and `1 - χ` for a layer bonded to a base; 1/M of a rigid base is zero.
-fn constants<T: Real>(layer: Elasticity<T>, base: Elasticity<T>) -> [T; 2] {
+fn constants<T: Real>(layer: &Elasticity<T>, base: &Elasticity<T>) -> [T; 2] {
     let (one, three, four) = (T::one(), T::of(3.0), T::of(4.0));
-    let [kappa, below] = [layer, base].map(|body| three - four * body.ratio);
+    let [kappa, below] = [layer.ratio, base.ratio].map(|ratio| three - four * ratio);
     // The shear modulus is M (1 - ν)/2.
     let ratio = (one - layer.ratio) * base.compliance / (layer.compliance * (one - base.ratio));
     [(one + kappa) / (one + ratio * below), (one + kappa) / (ratio + kappa)]
@@ -173,7 +131,7 @@ fn constants<T: Real>(layer: Elasticity<T>, base: Elasticity<T>) -> [T; 2] {
 
 impl<T: Real> Coating<T> {
     /// Returns K - 1, to rounding relative to itself: every sum is one of positive terms.
-    fn excess(&self, xi: T) -> T {
+    pub fn excess(&self, xi: T) -> T {
         let (one, two, four) = (T::one(), T::of(2.0), T::of(4.0));
         let (decay, rest) = ((-two * xi).exp(), -(-two * xi).exp_m1());
         let Some([less_lambda, less_chi]) = self.bonded else {
