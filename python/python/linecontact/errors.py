@@ -251,6 +251,63 @@ class InvalidLimitsError(InputError):
     interval: tuple[float, float]
 
 
+class InvalidThicknessError(InputError):
+    """The thickness of a layer is not a positive finite number.
+
+    Attributes
+    ----------
+    body : str
+        Body with this layer.
+    thickness : float
+        Thickness as given.
+    """
+
+    body: str
+    thickness: float
+
+
+class KernelError(InputError):
+    """A kernel, or a compliance by wavenumber, cannot be used.
+
+    Attributes
+    ----------
+    what : str
+        Quantity at fault.
+    at : float
+        Its value; of a compliance, the wavenumber.
+    """
+
+    what: str
+    at: float
+
+
+class LayerTooThinError(InputError):
+    """A contact is too wide for the layer below it, or another kernel as short.
+
+    Attributes
+    ----------
+    ratio : float
+        Half-width by thickness; by half the distance of the nearest singularity of a kernel.
+    limit : float
+        Largest ratio that is solved.
+    """
+
+    ratio: float
+    limit: float
+
+
+class KernelNotSupportedError(InputError):
+    """Layers and other kernels cannot be combined with another setting.
+
+    Attributes
+    ----------
+    why : str
+        Reason, for the message.
+    """
+
+    why: str
+
+
 class InvalidEdgePressureError(InputError):
     """One of A, B, ε_a, ε_b, ε₁, ε₂ of Eq. (6) is out of range.
 
@@ -537,6 +594,24 @@ class SlipNotSupportedError(InputError):
 
 class EdgePressureLoadError(InputError):
     """Edge pressures by the paper's Eq. (6) are given: then only a load can be prescribed."""
+
+
+class BendingError(SolveError):
+    """The bend of the bodies by a regular kernel has not converged.
+
+    Attributes
+    ----------
+    residual : float
+        Residual of Eq. (1), as a share of the largest part of its kernel.
+    solves : int
+        Number of solves.
+    share : float
+        Share of the load that was reached.
+    """
+
+    residual: float
+    solves: int
+    share: float
 
 
 class CancelledError(SolveError):
@@ -1181,6 +1256,18 @@ class InvalidPositionError(EvaluationError):
     x: float
     inside: bool
     interval: tuple[float, float]
+
+
+class HalfPlanesOnlyError(EvaluationError):
+    """The formula of a quantity is for half-planes, and the bodies have layers or another kernel.
+
+    Attributes
+    ----------
+    quantity : str
+        Name of the quantity.
+    """
+
+    quantity: str
 
 
 class NoLoadDerivativeError(EvaluationError):
