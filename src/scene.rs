@@ -39,7 +39,7 @@ mod text;
 pub use shape::{PlacedShape, Shape, Step};
 pub use text::SceneError;
 
-use crate::{Contact, ContactError, Control, Edge, Ends, Material, PlaneState, Real, References};
+use crate::{Contact, ContactError, Control, Edge, Ends, Foundation, PlaneState, Real, References};
 use serde::{Deserialize, Serialize};
 
 /// Contents of a file: a [`Contact`], and the quantities to prescribe.
@@ -104,10 +104,10 @@ pub enum Stiffness<T> {
     Kappa(T),
     /// Materials of both bodies: [`Contact::materials`].
     Materials {
-        /// Material of body 1.
-        lower: Material<T>,
-        /// Material of body 2.
-        upper: Material<T>,
+        /// Material or layer of body 1.
+        lower: Foundation<T>,
+        /// Material or layer of body 2.
+        upper: Foundation<T>,
         /// Thickness of the bodies across the plane.
         #[serde(default)]
         plane: PlaneState,

@@ -136,6 +136,10 @@ table! {
     InvalidKappa { kappa };
     InvalidModulus { modulus };
     InvalidLimits { interval };
+    InvalidThickness { body, thickness };
+    Kernel { what, at };
+    LayerTooThin { ratio, limit };
+    KernelNotSupported { why };
     InvalidEdgePressure { name, value };
     InvalidSegments { segments, extrapolations };
     InconsistentHeights { between, by_heights, by_slopes };
@@ -162,6 +166,7 @@ table! {
 }
 table! {
     SolveError, "", SOLVE, transparent: [];
+    Bending { residual, solves, share };
     Cancelled { evaluations, last };
     OutsideBodies { x, range };
     Inversion { body, x, source };
@@ -200,6 +205,7 @@ table! {
     OutsideTable { approach, range };
     SliceOutsideTable { z, approach, range };
     InvalidPosition { x, inside, interval };
+    HalfPlanesOnly { quantity };
     NoLoadDerivative { why };
     NoUncertainty { why };
     LengthMismatch { x, pressures };

@@ -7,8 +7,8 @@ use crate::solution::{PartialSlip, Solution};
 use linecontact::quadrature::Quadrature;
 use linecontact::search::{LimitSearch, StoppingCriteria, strategies};
 use linecontact::{
-    Contact, ContactError, Edge, EdgePressure, Exponents, Interval, Material, Midpoint, Panels,
-    PlaneState, Real, Shear,
+    Base, Contact, ContactError, Edge, EdgePressure, Exponents, Foundation, Interval, Layer,
+    Material, Midpoint, Panels, PlaneState, Real, Shear,
 };
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -84,6 +84,32 @@ fn material<L: Lift>(of: Elastic, lift: &mut L) -> Material<L::Of> {
     })
 }
 
+/// Base of a layer: "bonded" or "frictionless", or a half-plane.
+#[derive(FromPyObject)]
+enum Below {
+    Rigid(String),
+    HalfPlane(Elastic),
+}
+
+/// Material at the surface, and thickness and base of its layer, if it is one.
+type Surface = (Elastic, Option<(f64, Below)>);
+
+fn foundation<L: Lift>((of, below): &Surface, lift: &mut L) -> PyResult<Foundation<L::Of>> {
+    let Some((thickness, base)) = below else { return Ok(material(*of, lift).into()) };
+    let material_of =
+        |of: Elastic, name: &str, lift: &mut L| lift.inside(name, |lift| material(of, lift));
+    Ok(Foundation::Layer(Layer {
+        material: material_of(*of, "material", lift),
+        thickness: lift.number("thickness", *thickness),
+        base: match base {
+            Below::HalfPlane(of) => Base::HalfPlane(material_of(*of, "base", lift)),
+            Below::Rigid(name) if name == "bonded" => Base::Bonded,
+            Below::Rigid(name) if name == "frictionless" => Base::Frictionless,
+            Below::Rigid(name) => return none_such("base", &(name.clone(), Vec::new())),
+        },
+    }))
+}
+
 fn plane(name: &str) -> PyResult<PlaneState> {
     match name {
         "strain" => Ok(PlaneState::Strain),
@@ -126,9 +152,9 @@ impl Settings {
         }
         if let Some((lower, upper, state)) = &self.materials {
             let [lower, upper] = lift.inside("materials", |lift| {
-                [(0, *lower), (1, *upper)].map(|(i, of)| lift.inside(i, |lift| material(of, lift)))
+                [(0, lower), (1, upper)].map(|(i, of)| lift.inside(i, |lift| foundation(of, lift)))
             });
-            contact = contact.materials(lower, upper, plane(state)?);
+            contact = contact.materials(lower?, upper?, plane(state)?);
         }
         if let Some([left, right]) = &self.edges {
             let (left, right) = lift.inside("edges", |lift| {
@@ -227,7 +253,7 @@ scene! {
     upper: Py<Profile>,
     kappa: Option<f64>,
     contact_modulus: Option<f64>,
-    materials: Option<(Elastic, Elastic, String)>,
+    materials: Option<(Surface, Surface, String)>,
     edges: Option<[(String, f64); 2]>,
     edge_pressure: Option<[f64; 6]>,
     start: Option<[f64; 2]>,

@@ -36,7 +36,7 @@ PEAK = 2 * 500.0 / (math.pi * LENGTH)
 Run = Callable[..., tuple[int, str, str]]
 
 
-def roller(*controls: Any, lower: lc.Material = STEEL, **settings: Any) -> Scene:
+def roller(*controls: Any, lower: lc.Material | lc.Layer = STEEL, **settings: Any) -> Scene:
     given = {"materials": (lower, STEEL), **settings}
     return Scene(lc.Contact(lc.Flat(), ROLLER, **given), controls, UNITS, "roller")
 
@@ -135,6 +135,19 @@ def test_a_rigid_body_has_no_ratio(run: Run) -> None:
     text = run(roller({"load": 500.0}, lower=lc.Material.rigid()))[1]
     assert re.search(r"^lower material +rigid$", text, re.MULTILINE)
     assert math.isclose(numbers(text)["largest von Mises stress"], solution.max_von_mises(0.3).value, rel_tol=1e-5)
+
+
+def test_a_layer_and_what_is_not_known_of_it(run: Run) -> None:
+    rubber = lc.Material(5.0, 0.48)
+    bases: dict[Any, str] = {STEEL: "E = 210000 MPa, Poisson's ratio 0.3", "frictionless": "rigid, frictionless"}
+    for base, said in bases.items():
+        scene = roller({"load": 1.0}, lower=lc.Layer(rubber, 0.5, base))
+        code, text, _ = run(scene)
+        assert code == 0 and numbers(text)["half-width"] == float(f"{scene.contact.solve(load=1.0).half_width:.6g}")
+        assert re.search(r"^lower layer +E = 5 MPa, Poisson's ratio 0.48, 0.5 mm thick$", text, re.MULTILINE)
+        assert re.search(rf"^lower base +{said}$", text, re.MULTILINE)
+        assert re.search("^not known of layers .*the stress below the surface", text, re.MULTILINE)
+        assert "without materials" not in text
 
 
 def test_the_softer_ratio_and_the_plane_count(run: Run) -> None:

@@ -63,6 +63,10 @@ def outlier() -> lc.Spline:
     return lc.Spline(np.column_stack([X, y]))
 
 
+def layered(thickness: float, **settings: Any) -> lc.Contact:
+    return lc.Contact(FLAT, BODY, materials=(STEEL, lc.Layer(STEEL, thickness, "bonded")), **settings)
+
+
 def table() -> lc.SpringTable:
     return lc.SpringTable(material(), TO, (1.0, 10.0), 1e-3)
 
@@ -259,6 +263,10 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"ratio": 0.7},
     ),
     (lambda: lc.Stress(1.0, 1.0, 0.0).von_mises(0.7), "InvalidPoissonRatioError", {"ratio": 0.7}),
+    (lambda: layered(0.0).solve(load=1.0), "InvalidThicknessError", {"body": "upper", "thickness": 0.0}),
+    (lambda: layered(1e308).solve(load=1.0), "KernelError", {"at": math.inf}),
+    (lambda: layered(1e-5).solve(load=100.0), "LayerTooThinError", {"limit": 100.0}),
+    (lambda: layered(1.0, quadrature=lc.Midpoint()).solve(load=100.0), "KernelNotSupportedError", {}),
     (
         lambda: lc.contact_modulus(lc.Material.rigid(), lc.Material.rigid()),
         "BothRigidError",
@@ -410,6 +418,11 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     # Questions.
     (lambda: solved().approach(TO), "NoMaterialsError", {}),
     (
+        lambda: layered(1.0).solve(load=100.0).approach(TO),
+        "HalfPlanesOnlyError",
+        {"quantity": "the approach"},
+    ),
+    (
         lambda: material().solve(load=100.0).approach(TO._replace(upper=lc.Reference.disc(-1.0))),
         "InvalidReferenceError",
         {"length": -1.0},
@@ -510,6 +523,7 @@ def test_provoked(provoke: Callable[[], Any], name: str, numbers: dict[str, Any]
 
 # Errors that this package cannot raise, or for which no scene is known.
 NOT_PROVOKED = {
+    "BendingError": "no scene is known",
     "CancelledError": "comes out as KeyboardInterrupt, or as the exception of a function",
     "IntegralError": "no scene is known",
     "LengthMismatchError": "arrays of results are made here",
@@ -647,6 +661,12 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     ),
     (lambda: ANY.Material(210e3, 30), lc.InputError, ("ratio is 30", "0 to 1/2", "0.3 of steel")),
     (lambda: ANY.Material("210e3", 0.3), TypeError, ("youngs_modulus is '210e3'", "one number")),
+    (lambda: material_of(layered(1.0)._settings["materials"][1]), TypeError, ("materials are Layer(", "one for the")),
+    (lambda: ANY.Layer(210e3, 1.0, "bonded"), TypeError, ("210000.0 is no Material", "E and ν")),
+    (lambda: ANY.Layer(STEEL, "1", "bonded"), TypeError, ("thickness is '1'", "one number")),
+    (lambda: ANY.Layer(STEEL, 1.0, "glued"), ValueError, ("base is 'glued'", "'bonded', 'frictionless'")),
+    (lambda: ANY.Layer(STEEL, 1.0, 0.3), TypeError, ("0.3 is no Material", "E and ν")),
+    (lambda: ANY.contact_modulus(STEEL, lc.Layer(STEEL, 1.0, STEEL)), TypeError, ("Layer(", "is no Material")),
     (lambda: contact(limit_search="brend"), ValueError, ("limit_search is 'brend'", "'secant', 'brent', 'newton'")),
     (lambda: contact(inversion=3), ValueError, ("inversion is 3", "'bisection'")),
     (lambda: contact(quadrature="panels"), TypeError, ("quadrature is 'panels'", "Panels() or Midpoint()")),

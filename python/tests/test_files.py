@@ -21,19 +21,20 @@ from linecontact.bodies import _Shape
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = json.loads((ROOT / "docs/scene.schema.json").read_text(encoding="utf-8"))
-RUST = ROOT / "tests/data/scene.toml"
+RUST = [ROOT / "tests/data" / name for name in ("scene.toml", "layers.toml")]
 ODD = 0.1 + 0.2  # a number whose last digit matters
 
 FINITE = st.floats(-1e9, 1e9)
 POSITIVE = st.floats(1e-6, 1e6)
 
 
-def test_a_file_of_rust_goes_through_python_bit_for_bit(tmp_path: Path) -> None:
-    scene = lc.Scene.from_file(RUST)
+@pytest.mark.parametrize("rust", RUST, ids=lambda rust: str(rust.stem))
+def test_a_file_of_rust_goes_through_python_bit_for_bit(rust: Path, tmp_path: Path) -> None:
+    scene = lc.Scene.from_file(rust)
     for name in ("scene.json", "scene.toml"):
         scene.to_file(tmp_path / name)
         assert lc.Scene.from_file(tmp_path / name) == scene
-    assert (tmp_path / "scene.toml").read_bytes() == RUST.read_bytes()
+    assert (tmp_path / "scene.toml").read_bytes() == rust.read_bytes()
     jsonschema.validate(json.loads((tmp_path / "scene.json").read_text(encoding="utf-8")), SCHEMA)
 
 
@@ -102,6 +103,7 @@ def test_the_lists_of_shapes_have_every_shape() -> None:
 
 
 TO = lc.References(0.1, lc.Reference.depth(ODD), lc.Reference.disc(10.0))
+SOFT = lc.Material(ODD, 0.5)
 
 
 @pytest.mark.parametrize(
@@ -123,6 +125,8 @@ TO = lc.References(0.1, lc.Reference.depth(ODD), lc.Reference.disc(10.0))
         {"kappa": ODD},
         {"contact_modulus": 115e3, "edges": (lc.Edge.free(), lc.Edge.free_until(ODD)), "resolution": 1e-3},
         {"materials": (lc.Material.rigid(), lc.Material(210e3, 0.3)), "plane": "stress", "certified": True},
+        {"materials": (lc.Layer(SOFT, ODD, "frictionless"), lc.Layer(SOFT, 1e-3, "bonded"))},
+        {"materials": (lc.Layer(lc.Material.rigid(), ODD, SOFT), lc.Layer(SOFT, 1, lc.Material.rigid()))},
         {"kappa": 1.0, "edges": (lc.Edge.fixed(-1.0), lc.Edge.adhesive(ODD))},
     ],
     ids=lambda settings: "-".join(settings),
@@ -172,6 +176,13 @@ shape = { parabola = { radius = 1.0, domain = [-1.0, 1.0] } }
         ("contact_modulus", "modulus", 1, "stiffness", "unknown variant `modulus`"),
         ('"flat"', '"flat', 3, "", "string"),
         ("stiffness", "stiffness = 1\nstiffness", 2, "", "duplicate key"),
+        (
+            "contact_modulus = 115e3",
+            'materials = { lower = "rigid", upper = { layer = { material = "rigid", depth = 1 } } }',
+            1,
+            "stiffness.materials.upper.layer.depth",
+            "unknown field `depth`",
+        ),
     ],
 )
 def test_a_bad_file_says_line_and_field(
@@ -247,6 +258,13 @@ def test_a_scene_that_cannot_be_solved_is_refused() -> None:
     assert lc.Scene(contact, [{"load": 1.0}]) == lc.Scene(contact, ({"load": 1.0},))
 
 
+def layered(**wrong: Any) -> dict[str, Any]:
+    """Returns the stiffness of a layer, with wrong fields; None leaves one out."""
+    layer = {"material": "rigid", "thickness": 1.0, "base": "bonded"} | wrong
+    fields = {name: value for name, value in layer.items() if value is not None}
+    return {"materials": {"lower": "rigid", "upper": {"layer": fields}}}
+
+
 def test_the_schema_refuses_what_the_library_refuses(tmp_path: Path) -> None:
     contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), contact_modulus=1.0)
     lc.Scene(contact, ({"load": 1.0},)).to_file(tmp_path / "scene.json")
@@ -258,6 +276,10 @@ def test_the_schema_refuses_what_the_library_refuses(tmp_path: Path) -> None:
         (("upper", "shape", "parabola", "radius"), "1"),
         (("upper", "shape", "parabola", "domain"), [1.0]),
         (("stiffness",), {"kappa": 1.0, "contact_modulus": 1.0}),
+        (("stiffness",), layered(thickness=None)),
+        (("stiffness",), layered(base="glued")),
+        (("stiffness",), layered(base={"half_plane": "soft"})),
+        (("stiffness",), layered(depth=1.0)),
         (("controls",), [{"lode": 1.0}]),
         (("units",), {"width": "mm"}),
         (("edges",), {"left": "free"}),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import inspect
 import math
+import re
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -54,6 +55,23 @@ def test_materials_and_the_elastic_constants_of_each() -> None:
     rates = [(-(1 - nu**2) / modulus**2, -2 * nu / modulus) for modulus, nu in (STEEL, ALUMINIUM)]
     exact = [value / 2 * rate / sum(compliances) for pair in rates for rate in pair]
     assert all(abs(found / wanted - 1) < 1e-12 for found, wanted in zip(derivatives, exact, strict=True))
+
+
+@pytest.mark.parametrize("base", [STEEL, "bonded", "frictionless"])
+def test_a_layer_by_all_its_numbers(base: Any) -> None:
+    """All lengths, or all pressures, are in any unit: Euler's theorem ties the derivatives."""
+    cover = lc.Layer(lc.Material(5.0, 0.48), 10.0, base)
+    contact = lc.Contact(lc.Flat(), lc.Parabola(100.0, (-50.0, 50.0)), materials=(ALUMINIUM, cover))
+    numbers = lc.parameters(contact, load=20.0)
+    assert numbers["materials.1.thickness"] == 10.0 and numbers["materials.1.material.youngs_modulus"] == 5.0
+    assert ("materials.1.base.youngs_modulus" in numbers) == (base == STEEL)
+    lengths = {name: value for name, value in numbers.items() if re.search("radius|domain|thickness|load", name)}
+    pressures = {name: value for name, value in numbers.items() if re.search("youngs_modulus|load", name)}
+    (a, peak), found = lc.gradient(contact, ["half_width", "peak_pressure"], [lengths, pressures], load=20.0)
+    close(found / [[a], [peak]], [[1.0, 0.0], [0.0, 1.0]], 1e-11)
+    by = [f"materials.1.{name}" for name in ("thickness", "material.poisson_ratio")]
+    _, (thicker, stiffer) = lc.gradient(contact, "a", by, load=20.0)
+    assert thicker > 0.0 > stiffer
 
 
 def test_the_load_that_a_crowned_roller_takes_on_a_given_width() -> None:

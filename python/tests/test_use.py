@@ -266,7 +266,10 @@ def test_every_search_of_the_library_serves(name: str) -> None:
         assert contact.solve(half_width=0.2).a == pytest.approx(0.2, rel=1e-14)
 
 
-@pytest.mark.parametrize(("contact", "control"), contacts())
+LAYERED = lc.Contact(FLAT, BODY, materials=(STEEL, lc.Layer(STEEL, 0.02, "bonded")))
+
+
+@pytest.mark.parametrize(("contact", "control"), [*contacts(), (LAYERED, {"load": 100.0})])
 def test_contacts_and_solutions_pickle(contact: lc.Contact, control: dict[str, Any]) -> None:
     solution = contact.solve(**control)
     again = pickle.loads(pickle.dumps(contact))
@@ -281,6 +284,29 @@ def test_contacts_and_solutions_pickle(contact: lc.Contact, control: dict[str, A
         x = np.linspace(*solution.hull, 64)[1:-1]
         np.testing.assert_array_equal(other.pressure(x), solution.pressure(x))
         assert other.cost == solution.cost
+
+
+def test_a_layer_is_a_value() -> None:
+    layer = lc.Layer((5.0, 0.48), 1, STEEL)
+    assert layer == lc.Layer(lc.Material(5.0, 0.48), 1.0, STEEL) != layer._replace(base="bonded")
+    assert isinstance(layer.material, lc.Material) and isinstance(layer.thickness, float)
+    again = pickle.loads(pickle.dumps(layer))
+    assert again == layer and type(again) is lc.Layer and eval(repr(layer), vars(lc)) == layer
+    one, other = (lc.Contact(FLAT, BODY, materials=(lc.Layer(STEEL, h, STEEL), STEEL)) for h in (1.0, 2.0))
+    assert one != other and hash(one) != hash(other) and repr(one) in repr([one])
+
+
+def test_a_layer_like_its_base_is_none_and_a_thin_one_a_row_of_springs() -> None:
+    half_plane = lc.solve(FLAT, BODY, materials=(STEEL, STEEL), load=100.0)
+    layer = lc.solve(FLAT, BODY, materials=(lc.Layer(STEEL, 0.01, STEEL), STEEL), load=100.0)
+    assert math.isclose(layer.a, half_plane.a, rel_tol=1e-14)
+    # Johnson, 1985, Section 5.8: P = E (a² - x²)/(2 R h (1 - ν²)) on a rigid base without friction.
+    rubber, h, load = lc.Material(5.0, 0.48), 0.002, 0.1
+    thin = lc.Layer(rubber, h, "frictionless")
+    solution = lc.solve(FLAT, BODY, materials=(thin, lc.Material.rigid()), load=load)
+    a = (1.5 * load * h * (1 - 0.48**2) / 5.0) ** (1 / 3)
+    assert math.isclose(solution.a, a, rel_tol=0.02)
+    assert math.isclose(solution.peak().pressure, 0.75 * load / a, rel_tol=2e-5)
 
 
 def test_what_else_pickles() -> None:

@@ -58,15 +58,40 @@ pub enum Base<T> {
 }
 
 /// What a body is made of below its surface.
+///
+/// In a file a half-plane is written as its [`Material`], and a layer under the name `layer`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Foundation<T> {
-    /// Half-plane of one material.
-    HalfPlane(Material<T>),
     /// Layer on a base.
     Layer(Layer<T>),
+    /// Half-plane of one material.
+    #[cfg_attr(feature = "serde", serde(untagged))]
+    HalfPlane(Material<T>),
+}
+
+/// Reads a foundation. One enum of all names tells what may stand in a place; without it the line
+/// and the field of a fault would be lost.
+#[cfg(feature = "serde")]
+impl<'de, T: serde::Deserialize<'de>> serde::Deserialize<'de> for Foundation<T> {
+    fn deserialize<D: serde::Deserializer<'de>>(file: D) -> Result<Self, D::Error> {
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields, rename_all = "snake_case")]
+        enum Material<T> {
+            Elastic { youngs_modulus: T, poisson_ratio: T },
+            Rigid,
+            Layer(Layer<T>),
+        }
+        Ok(match Material::deserialize(file)? {
+            Material::Elastic { youngs_modulus, poisson_ratio } => {
+                Self::HalfPlane(crate::Material::Elastic { youngs_modulus, poisson_ratio })
+            }
+            Material::Rigid => Self::HalfPlane(crate::Material::Rigid),
+            Material::Layer(layer) => Self::Layer(layer),
+        })
+    }
 }
 
 impl<T> From<Material<T>> for Foundation<T> {

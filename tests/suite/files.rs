@@ -5,9 +5,9 @@ use crate::common::{controls::controls_of, on_flat, quartic};
 use linecontact::profile::{Crowning, Ellipse, Fit, Involute, Line, Parabola};
 use linecontact::search::{Bisection, Brent, Newton, Secant, StoppingCriteria};
 use linecontact::{
-    Contact, Control, Convexity, CurvePoint, Edge, EdgePressure, Estimate, Exponents, Flat,
-    Interval, Material, Midpoint, Panels, PlaneState, Reference, References, Report, Shear,
-    Solution, SpringTable, Summary,
+    Base, Contact, Control, Convexity, CurvePoint, Edge, EdgePressure, Estimate, Exponents, Flat,
+    Foundation, Interval, Layer, Material, Midpoint, Panels, PlaneState, Reference, References,
+    Report, Shear, Solution, SpringTable, Summary,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -96,6 +96,11 @@ fn settings_are_kept_and_have_their_defaults() {
     controls.into_iter().for_each(is_kept);
     is_kept(Material::elastic(210e3, 0.3));
     is_kept(Material::<f64>::Rigid);
+    is_kept(Foundation::from(Material::elastic(210e3, 0.3)));
+    is_kept(Foundation::<f64>::from(Material::Rigid));
+    for base in [Base::Bonded, Base::Frictionless, Base::HalfPlane(Material::Rigid)] {
+        is_kept(Foundation::from(Layer { material: soft, thickness: 0.1, base }));
+    }
     is_kept(PlaneState::Stress);
     let references =
         References { x: 0.1, lower: Reference::Depth(3.0), upper: Reference::Disc(2.0) };

@@ -55,6 +55,33 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
         ),
         (ContactError::Input(InputError::InvalidKappa { kappa: -8.5 }), &["κ = -8.5", "π E*/2"]),
         (
+            ContactError::Input(InputError::InvalidThickness {
+                body: Body::Upper,
+                thickness: -9.5,
+            }),
+            &["layer of the upper body", "-9.5", "positive and finite"],
+        ),
+        (
+            ContactError::Input(InputError::Kernel { what: "the decay", at: -1.5 }),
+            &["the decay of the kernel", "-1.5"],
+        ),
+        (
+            ContactError::Input(InputError::LayerTooThin { ratio: 101.5, limit: 100.5 }),
+            &["101.5 times", "at most 100.5", "foundation of springs"],
+        ),
+        (
+            ContactError::Input(InputError::KernelNotSupported { why: "an edge is Adhesive" }),
+            &["an edge is Adhesive"],
+        ),
+        (
+            ContactError::Solve(SolveError::Bending { residual: 1.5, solves: 120, share: 0.5 }),
+            &["120 solves", "1.5", "0.5 of the load", "a smaller load"],
+        ),
+        (
+            ContactError::Evaluation(EvaluationError::HalfPlanesOnly { quantity: "the approach" }),
+            &["the approach", "half-planes only", "layer"],
+        ),
+        (
             ContactError::Input(InputError::InvalidLimits { interval: ON }),
             &["-b = -11.5", "a = 12.5"],
         ),

@@ -3,7 +3,8 @@
 use linecontact::profile::{Crowning, Ellipse, Fit, Involute, Line, Parabola};
 use linecontact::scene::{PlacedShape, Scene, SceneError, Shape, Step, Stiffness};
 use linecontact::{
-    Contact, Control, Edge, Ends, Flat, InputError, Material, PlaneState, Reference, References,
+    Base, Contact, Control, Edge, Ends, Flat, InputError, Layer, Material, PlaneState, Reference,
+    References,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -31,6 +32,14 @@ fn shapes() -> Vec<Shape<f64>> {
     ]
 }
 
+/// Layers on both bodies.
+fn layers(base: Material<f64>) -> Stiffness<f64> {
+    let rubber = Material::elastic(5.1, 0.48);
+    let [lower, upper] = [(0.7, Base::HalfPlane(base)), (1.0 / 3.0, Base::Frictionless)]
+        .map(|(thickness, base)| Layer { material: rubber, thickness, base }.into());
+    Stiffness::Materials { lower, upper, plane: PlaneState::Strain }
+}
+
 #[test]
 fn every_scene_is_kept_bit_for_bit() {
     let to = References { x: 0.1, lower: Reference::Depth(3.0), upper: Reference::Disc(2.0) };
@@ -51,11 +60,12 @@ fn every_scene_is_kept_bit_for_bit() {
             Some(Stiffness::Kappa(0.1)),
             Some(Stiffness::ContactModulus(115e3)),
             Some(Stiffness::Materials {
-                lower: Material::Rigid,
-                upper: steel,
+                lower: Material::Rigid.into(),
+                upper: steel.into(),
                 plane: PlaneState::Stress,
             }),
-        ][i % 4];
+            Some(layers(steel)),
+        ][i % 5];
         scene.edges = [None, Some(Ends { left: Edge::Free, right: Edge::FreeUntil(0.1) })][i % 2];
         scene.certified = i % 3 == 0;
         scene.resolution = [None, Some(1e-5)][i % 2];
@@ -118,15 +128,16 @@ fn a_shape_is_made_from_its_numbers() {
     assert_eq!(found, Some(Err(InputError::Shape(refused).into())));
 }
 
-/// The package for Python reads and writes the same file.
+/// The package for Python reads and writes the same files.
 #[test]
 fn a_file_is_written_again_byte_by_byte() {
-    let text = include_str!("../data/scene.toml");
-    let scene = Scene::<f64>::from_toml(text).unwrap();
-    assert_eq!(scene.to_toml().unwrap(), text);
-    let contact = scene.contact().unwrap();
-    for &control in &scene.controls {
-        contact.solve(control).unwrap();
+    for text in [include_str!("../data/scene.toml"), include_str!("../data/layers.toml")] {
+        let scene = Scene::<f64>::from_toml(text).unwrap();
+        assert_eq!(scene.to_toml().unwrap(), text);
+        let contact = scene.contact().unwrap();
+        for &control in &scene.controls {
+            contact.solve(control).unwrap();
+        }
     }
 }
 
@@ -149,6 +160,22 @@ fn a_scene_solves_to_the_same_bits() {
     let load = Control::Load(500.0);
     let (read, made) =
         (scene.contact().unwrap().solve(load).unwrap(), by_hand.solve(load).unwrap());
+    assert_eq!(read.hull(), made.hull());
+    assert_eq!(read.peak().unwrap(), made.peak().unwrap());
+}
+
+#[test]
+fn a_layer_solves_to_the_same_bits() {
+    let text = include_str!("../data/layers.toml");
+    let scene = Scene::from_toml(text).unwrap();
+    let [rubber, steel] = [Material::elastic(5.0, 0.48), Material::elastic(210e3, 0.3)];
+    let cover = Layer { material: rubber, thickness: 10.0, base: Base::HalfPlane(steel) };
+    let blanket = Layer { material: rubber, thickness: 2.0, base: Base::Bonded };
+    let roller = Parabola::new(100.0, [-30.0, 30.0]).unwrap();
+    let by_hand =
+        Contact::new(&Flat, &roller).unwrap().materials(blanket, cover, PlaneState::Strain);
+    let read = scene.contact().unwrap().solve(scene.controls[0]).unwrap();
+    let made = by_hand.solve(scene.controls[0]).unwrap();
     assert_eq!(read.hull(), made.hull());
     assert_eq!(read.peak().unwrap(), made.peak().unwrap());
 }
@@ -240,6 +267,65 @@ fn a_bad_file_is_refused_with_line_and_field() {
         ("\n\n", "\nunits = { width = \"mm\" }\n", 2, "units.width", "unknown field `width`"),
     ];
     assert_refused(Scene::from_toml, good, &refused);
+}
+
+#[test]
+fn a_bad_layer_is_refused_with_line_and_field() {
+    let good = "[lower]\nshape = \"flat\"\n[upper]\nshape = \"flat\"\n\
+                [stiffness.materials]\nlower = \"rigid\"\n\
+                [stiffness.materials.upper.layer]\nmaterial = \"rigid\"\nthickness = 1.0\n\
+                base = { half_plane = { elastic = { youngs_modulus = 1.0, poisson_ratio = 0.3 } } }\n";
+    let layer = "stiffness.materials.upper.layer";
+    let rows = [
+        (
+            "\"rigid\"",
+            "\"rigit\"",
+            6,
+            "stiffness.materials.lower",
+            "`rigit`, expected one of `elastic`, `rigid`, `layer`",
+        ),
+        (
+            "lower = \"rigid\"",
+            "lower = { layer = { thickness = 1 } }",
+            6,
+            "stiffness.materials.lower.layer",
+            "missing field `material`",
+        ),
+        ("upper.layer", "upper.lair", 7, "stiffness.materials.upper", "unknown variant `lair`"),
+        (
+            "\nthickness",
+            "\nthickness = 1\ndepth",
+            10,
+            &format!("{layer}.depth"),
+            "unknown field `depth`",
+        ),
+        (
+            "thickness = 1.0",
+            "thickness = \"1\"",
+            9,
+            &format!("{layer}.thickness"),
+            "invalid type: string",
+        ),
+        ("thickness = 1.0\n", "", 7, layer, "missing field `thickness`"),
+        ("half_plane", "half", 10, &format!("{layer}.base"), "unknown variant `half`"),
+        (
+            "youngs_modulus",
+            "modulus",
+            10,
+            &format!("{layer}.base.half_plane.elastic"),
+            "unexpected keys in table: modulus",
+        ),
+    ];
+    assert_refused(Scene::from_toml, good, &rows);
+    let json = "{\"lower\": {\"shape\": \"flat\"},\n\"upper\": {\"shape\": \"flat\"},\n\
+                \"stiffness\": {\"materials\": {\"lower\": \"rigid\", \"upper\": {\"layer\":\n\
+                {\"material\": \"rigid\", \"thickness\": 1, \"base\": \"bonded\"}}}}}";
+    let rows = [
+        ("bonded", "glued", 4, &*format!("{layer}.base"), "unknown variant `glued`"),
+        ("\"thickness\"", "\"thick\"", 4, &format!("{layer}.thick"), "unknown field `thick`"),
+        ("\"layer\"", "\"lair\"", 3, "stiffness.materials.upper", "unknown variant `lair`"),
+    ];
+    assert_refused(Scene::from_json, json, &rows);
 }
 
 #[test]

@@ -18,11 +18,13 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 Plane: TypeAlias = Literal["strain", "stress"]
+Rigid: TypeAlias = Literal["bonded", "frictionless"]
 
 __all__ = [
     "Contact",
     "Edge",
     "EdgePressure",
+    "Layer",
     "Material",
     "Midpoint",
     "Panels",
@@ -75,22 +77,79 @@ class Material(_Material):
         return cls(math.inf, 0.0)
 
 
-def _elastic(material: Sequence[float]) -> tuple[float, float] | None:
+class _Layer(NamedTuple):
+    material: Material
+    thickness: float
+    base: Material | Rigid
+
+
+class Layer(_Layer):
+    """A layer of even thickness at the surface of a body: a cover, a coating, a liner.
+
+    Parameters
+    ----------
+    material : Material
+        Material of the layer.
+    thickness : float
+        Thickness of the layer: a length.
+    base : Material, "bonded" or "frictionless"
+        Material of the body below, to which the layer is bonded, or a rigid base: the layer is
+        bonded to it, or slides on it without friction and without lifting off.
+
+    Examples
+    --------
+    A printing nip: a rubber cover of 10 mm on a steel core of 90 mm, against steel. mm, MPa, N/mm.
+
+    >>> import linecontact as lc
+    >>> rubber, steel = lc.Material(5.0, 0.48), lc.Material(210e3, 0.3)
+    >>> cylinder, cover = lc.Parabola(100.0, (-30.0, 30.0)), lc.Layer(rubber, 10.0, steel)
+    >>> nip = lc.solve(lc.Flat(), cylinder, materials=(steel, cover), load=20.0)
+    >>> round(nip.half_width, 3), round(nip.peak().pressure, 4)
+    (13.011, 1.0555)
+    """
+
+    __slots__ = ()
+
+    def __new__(cls, material: Sequence[float], thickness: float, base: Sequence[float] | Rigid) -> Layer:
+        """Creates the layer; refuses what is no material here, before any solve."""
+        words = ("bonded", "frictionless")
+        below = cast("Rigid", one_of(base, "base", words)) if isinstance(base, str) else _material(base)
+        return super().__new__(cls, _material(material), as_number(thickness, "thickness"), below)
+
+
+Foundation: TypeAlias = Layer | Sequence[float]
+
+
+def _material(given: Sequence[float]) -> Material:
     try:
-        modulus, ratio = material
+        modulus, ratio = given
     except (TypeError, ValueError):
-        raise TypeError(f"{material!r} is no Material: give E and ν, as Material(210e3, 0.3)") from None
-    modulus, ratio = as_number(modulus, "youngs_modulus"), as_number(ratio, "poisson_ratio")
+        raise TypeError(f"{given!r} is no Material: give E and ν, as Material(210e3, 0.3)") from None
+    return Material(modulus, ratio)
+
+
+def _elastic(material: Sequence[float]) -> tuple[float, float] | None:
+    """Returns E and ν, or None for a rigid material."""
+    modulus, ratio = _material(material)
     return None if modulus == math.inf else (modulus, ratio)
 
 
-def _both(materials: Sequence[Any]) -> tuple[tuple[float, float] | None, tuple[float, float] | None]:
-    """Returns the materials of the two bodies."""
-    if isinstance(materials, Material) or not isinstance(materials, Sequence) or len(materials) != 2:
+def _foundation(given: Foundation) -> tuple[Any, Any]:
+    """Returns the material at the surface, and thickness and base of the layer, if it is one."""
+    if not isinstance(given, Layer):
+        return _elastic(given), None
+    material, thickness, base = given
+    return _elastic(material), (thickness, base if isinstance(base, str) else _elastic(base))
+
+
+def _both(materials: Sequence[Any]) -> Sequence[Any]:
+    """Returns what was given for the two bodies; refuses what is for one, or for more."""
+    one = isinstance(materials, (Material, Layer))
+    if one or not isinstance(materials, Sequence) or len(materials) != 2:
         raise TypeError(
             f"materials are {materials!r}: give one for the lower and one for the upper body, such as (steel, steel)"
         )
-    return _elastic(materials[0]), _elastic(materials[1])
+    return materials
 
 
 def contact_modulus(
@@ -368,7 +427,7 @@ class Settings(TypedDict, total=False):
     """The keyword arguments of `Contact`."""
 
     contact_modulus: float | None
-    materials: tuple[Sequence[float], Sequence[float]] | None
+    materials: tuple[Foundation, Foundation] | None
     kappa: float | None
     plane: Plane
     edges: tuple[Edge, Edge] | None
@@ -437,7 +496,7 @@ class Contact(Unchanging):
     contact_modulus : float, optional
         E* of plane strain: a pressure. (The function `contact_modulus` returns it for two
         materials.)
-    materials : (Material, Material), optional
+    materials : (Material or Layer, Material or Layer), optional
         Materials of the lower and the upper body, in place of the modulus. An approach needs them.
     kappa : float, optional
         κ = π E*/2 in place of both: a pressure. The default is κ = 1 if none of the three is given.
@@ -491,7 +550,7 @@ class Contact(Unchanging):
         upper: Body,
         *,
         contact_modulus: float | None = None,
-        materials: tuple[Sequence[float], Sequence[float]] | None = None,
+        materials: tuple[Foundation, Foundation] | None = None,
         kappa: float | None = None,
         plane: Plane = "strain",
         edges: tuple[Edge, Edge] | None = None,
@@ -540,7 +599,7 @@ class Contact(Unchanging):
             upper=upper._profile,
             kappa=kappa,
             contact_modulus=contact_modulus,
-            materials=None if materials is None else (*_both(materials), plane),
+            materials=None if materials is None else (*map(_foundation, _both(materials)), plane),
             edges=edges,
             edge_pressure=edge_pressure,
             start=self._settings["start"],
@@ -556,6 +615,11 @@ class Contact(Unchanging):
     def has_modulus(self) -> bool:
         """True if a modulus, materials or κ were given; otherwise pressures are those of κ = 1."""
         return any(self._settings[name] is not None for name in ("contact_modulus", "materials", "kappa"))
+
+    def _surfaces(self) -> list[Material]:
+        """Returns the materials at the surfaces of the bodies, if they are given."""
+        given = self._settings["materials"] or ()
+        return [one.material if isinstance(one, Layer) else _material(one) for one in given]
 
     def _set(self) -> dict[str, Any]:
         """Returns the settings that differ from their defaults."""

@@ -62,7 +62,8 @@ def gradient(
         "lower.angles.0", "upper.parts.1.radius"), of the placement steps ("upper.rotated.angle",
         "lower.shifted.along"; of two steps of the same name "upper.rotated.0.angle" and
         "upper.rotated.1.angle"), of the contact ("contact_modulus", "materials.0.youngs_modulus",
-        "edges.1.value"), and prescribed numbers ("load", "references.x"). `parameters` lists them.
+        "edges.1.value", of a layer "materials.1.thickness" and "materials.1.base.youngs_modulus"),
+        and prescribed numbers ("load", "references.x"). `parameters` lists them.
         A mapping changes several numbers at once, each at its rate: the radius of a circle is
         `{"upper.along": 1.0, "upper.across": 1.0}`.
     **prescribed : float

@@ -321,10 +321,10 @@ def _beside(solution: Solution, window: Range) -> FloatArray:
 
 def _share_of_lower(contact: Contact) -> float:
     """Returns the lower body's share of the deformation: half without materials."""
-    materials = contact._settings["materials"]
-    if materials is None:
+    surfaces = contact._surfaces()
+    if not surfaces:
         return 0.5
-    lower, upper = (Material(*material) for material in materials)
+    lower, upper = surfaces
     if lower == Material.rigid():
         return 0.0
     plane = contact._settings["plane"]

@@ -8,6 +8,7 @@ Functions cannot be written: a `Curve` is refused, and so are settings of the nu
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -18,7 +19,19 @@ import numpy as np
 
 from . import _native
 from .bodies import Body, Piecewise, Placed, Spline, _Shape
-from .contact import Contact, Edge, Material, Prescribed, Reference, References, _both, _wanted
+from .contact import (
+    Contact,
+    Edge,
+    Foundation,
+    Layer,
+    Material,
+    Prescribed,
+    Reference,
+    References,
+    _both,
+    _material,
+    _wanted,
+)
 from .errors import SceneFileError
 
 Fields: TypeAlias = dict[str, Any]
@@ -189,8 +202,27 @@ def _read_material(value: Named) -> Material:
     return Material.rigid() if value == "rigid" else Material(**cast("Fields", value)["elastic"])
 
 
-def _material_fields(material: tuple[float, float] | None) -> Named:
-    return "rigid" if material is None else {"elastic": dict(zip(Material._fields, material))}
+def _read_foundation(value: Named) -> Foundation:
+    kind, layer = _named(value)
+    if kind != "layer":
+        return _read_material(value)
+    base = layer["base"]
+    if not isinstance(base, str):
+        base = _read_material(base["half_plane"])
+    return Layer(_read_material(layer["material"]), layer["thickness"], base)
+
+
+def _material_fields(given: Sequence[float]) -> Named:
+    material = _material(given)
+    return "rigid" if material.youngs_modulus == math.inf else {"elastic": material._asdict()}
+
+
+def _foundation_fields(given: Foundation) -> Named:
+    if not isinstance(given, Layer):
+        return _material_fields(given)
+    base = given.base if isinstance(given.base, str) else {"half_plane": _material_fields(given.base)}
+    material = _material_fields(given.material)
+    return {"layer": {"material": material, "thickness": given.thickness, "base": base}}
 
 
 def _read_edge(value: Named) -> Edge:
@@ -204,7 +236,7 @@ def _read_contact(fields: Fields) -> Contact:
         kind, value = _named(fields["stiffness"])
         if kind == "materials":
             settings["plane"] = value["plane"]
-            value = _read_material(value["lower"]), _read_material(value["upper"])
+            value = _read_foundation(value["lower"]), _read_foundation(value["upper"])
         settings[kind] = value
     if "edges" in fields:
         settings["edges"] = tuple(_read_edge(fields["edges"][side]) for side in ("left", "right"))
@@ -215,7 +247,7 @@ def _contact_fields(contact: Contact) -> Fields:
     fields = {side: _body_fields(getattr(contact, side), side) for side in ("lower", "upper")}
     settings = contact._set()
     if materials := settings.pop("materials", None):
-        lower, upper = map(_material_fields, _both(materials))
+        lower, upper = map(_foundation_fields, _both(materials))
         fields["stiffness"] = {
             "materials": {"lower": lower, "upper": upper, "plane": settings.pop("plane", "strain")}
         }

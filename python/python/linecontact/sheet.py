@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from .contact import Contact
-from .errors import LineContactError, SingularError
+from .contact import Contact, Layer
+from .errors import HalfPlanesOnlyError, LineContactError, SingularError
 from .solution import Solution, StressPeak
 
 if TYPE_CHECKING:
@@ -59,21 +59,22 @@ _EXACT = 1e-12
 
 
 class Row(NamedTuple):
-    """A control with its solution and numbers, or with its error."""
+    """A control with its solution and numbers, and what is not known of layers, or with its error."""
 
     control: Mapping[str, Any]
     solution: Solution | None
     numbers: dict[str, float]
+    missing: Sequence[str]
     error: LineContactError | None
 
 
 def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None) -> Row:
     """Solves a contact, and returns its numbers: NaN if they are not known, infinite at corners."""
-    numbers = dict.fromkeys(NUMBERS, math.nan)
+    numbers, missing = dict.fromkeys(NUMBERS, math.nan), dict[str, None]()
     try:
         solution = scene.contact.solve(**control)
     except LineContactError as error:
-        return Row(control, None, numbers, error)
+        return Row(control, None, numbers, (), error)
 
     def note(of: Callable[[], Iterable[float]], *names: str) -> None:
         try:
@@ -82,6 +83,8 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
             # The names of a place, and of a value, which is infinite there.
             if names[0].endswith("_x"):
                 numbers.update({**dict.fromkeys(names, 0.0), names[0]: error.x, names[-1]: math.inf})
+        except HalfPlanesOnlyError as error:
+            missing[error.quantity] = None
         except LineContactError:
             pass
 
@@ -107,7 +110,7 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
         numbers.update({f"safety_{of}": yield_stress / numbers[of] for of in ("von_mises", "tresca")})
     for name in ("centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
         numbers[name] = 0.0 if abs(numbers[name]) < _ROUNDING * solution.half_width else numbers[name]
-    return Row(control, solution, numbers, None)
+    return Row(control, solution, numbers, tuple(missing), None)
 
 
 def poisson_ratio(contact: Contact) -> float | None:
@@ -115,9 +118,8 @@ def poisson_ratio(contact: Contact) -> float | None:
 
     It is 0 in plane stress, where no stress acts along z, and None without materials.
     """
-    settings = contact._settings
-    elastic = [float(ratio) for modulus, ratio in settings["materials"] or () if math.isfinite(modulus)]
-    return 0.0 if elastic and settings["plane"] == "stress" else min(elastic, default=None)
+    elastic = [ratio for modulus, ratio in contact._surfaces() if math.isfinite(modulus)]
+    return 0.0 if elastic and contact._settings["plane"] == "stress" else min(elastic, default=None)
 
 
 def largest_tresca(solution: Solution, ratio: float | None) -> StressPeak:
@@ -151,15 +153,28 @@ def _line(label: str, content: str) -> str:
     return line if len(line) <= _WIDTH else line[: _WIDTH - 3] + "..."
 
 
+def _elastic(of: Any, unit: str) -> str:
+    """Returns a material in words, or the rigid base of a layer."""
+    if isinstance(of, str):
+        return f"rigid, {of}"
+    modulus, ratio = of
+    elastic = f"E = {modulus:g} {unit}".rstrip() + f", Poisson's ratio {ratio:g}"
+    return elastic if math.isfinite(modulus) else "rigid"
+
+
 def sheet(scene: Scene, row: Row, yield_stress: float | None) -> str:
     """Returns the result sheet of one solution."""
     contact, numbers = scene.contact, row.numbers
     units = {"": "", "length": "", "pressure": "", "load": "", "angle": "rad", **scene.units}
     pressure = units["pressure"]
     lines = [scene.title, "", _line("lower body", str(contact.lower)), _line("upper body", str(contact.upper))]
-    for name, (modulus, ratio) in zip(("lower", "upper"), contact._settings["materials"] or (), strict=False):
-        elastic = f"E = {modulus:g} {pressure}".rstrip() + f", Poisson's ratio {ratio:g}"
-        lines.append(_line(f"{name} material", elastic if math.isfinite(modulus) else "rigid"))
+    for name, given in zip(("lower", "upper"), contact._settings["materials"] or (), strict=False):
+        if isinstance(given, Layer):
+            thick = f"{given.thickness:g} {units['length']}".rstrip()
+            lines.append(_line(f"{name} layer", f"{_elastic(given.material, pressure)}, {thick} thick"))
+            lines.append(_line(f"{name} base", _elastic(given.base, pressure)))
+        else:
+            lines.append(_line(f"{name} material", _elastic(given, pressure)))
     lines += [_line("prescribed", described(row.control)), ""]
     for name, (kind, label) in NUMBERS.items():
         if label and not math.isnan(numbers[name]):
@@ -193,7 +208,8 @@ def _notes(row: Row, units: dict[str, str]) -> list[str]:
         (numbers["half_width_deviation"] > 0.0, "noise of the points", deviation),
         (True, "checked", checked),
         (len(solution.intervals) > 1, "note", several),
-        (math.isnan(numbers["von_mises"]), "note", "without materials Tresca is for Poisson's ratios from 1/4"),
+        (poisson_ratio(solution.contact) is None, "note", "without materials Tresca is for Poisson's ratios from 1/4"),
+        (len(row.missing) > 0, "not known of layers", ", ".join(row.missing)),
         (not solution.contact.has_modulus, "note", "no modulus is given: pressures are those of kappa = 1"),
         (solution.is_steep, "note", "slopes exceed 0.3, too steep for half-planes: check the units"),
     ]
