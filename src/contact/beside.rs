@@ -35,11 +35,17 @@ impl<'b, T: Real> Beside<'b, T> {
         if compliance.is_none() && formula.is_none() {
             return Ok(None);
         }
-        let lengths = compliance
-            .iter()
-            .flat_map(|of| [("the decay", of.decay()), ("the longest length", of.longest())]);
+        let lengths = compliance.iter().flat_map(|of| {
+            [
+                ("its decay must be positive and finite, but c", of.decay()),
+                ("its longest length must be positive and finite, but ℓ", of.longest()),
+            ]
+        });
         let distance = formula.iter().map(|of| {
-            ("the distance of the nearest singularity", of.kernel().nearest_singularity())
+            (
+                "its nearest singularity must lie at a positive, finite distance, but d",
+                of.kernel().nearest_singularity(),
+            )
         });
         for (what, at) in lengths.chain(distance) {
             if !(at.is_finite() && at > T::zero()) {
@@ -49,7 +55,7 @@ impl<'b, T: Real> Beside<'b, T> {
         let table = match (compliance, self.table.get()) {
             (Some(_), Some(table)) => Some(table.clone()),
             (Some(of), None) => {
-                let what = "the compliance";
+                let what = "the compliance is not a positive number at ω";
                 let table = Table::new(of).map_err(|at| InputError::Kernel { what, at })?;
                 Some(self.table.get_or_init(|| Arc::new(table)).clone())
             }

@@ -83,11 +83,11 @@ pub enum InputError<T: Real> {
         thickness: T,
     },
     /// A kernel, or a compliance by wavenumber, cannot be used.
-    #[error("{what} of the kernel is not positive and finite: {}", six(*at))]
+    #[error("a kernel cannot be used: {what} = {}", six(*at))]
     Kernel {
-        /// Quantity at fault.
+        /// Fault, for the message.
         what: &'static str,
-        /// Its value; of a compliance, the wavenumber.
+        /// Length at fault; of a value that is, its place or wavenumber.
         at: T,
     },
     /// A contact is too wide for the layer below it, or another kernel as short.

@@ -366,6 +366,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         let spreads = contacts.iter().enumerate().map(spread);
         let spreads = spreads.collect::<Result<Vec<_>, ContactError<T>>>()?;
         let correction = Correction::new(&self.kernel, solved.gap.bend(), spreads, kept);
-        correction.map_err(|at| InputError::Kernel { what: "K(x, s)", at }.into())
+        correction
+            .map_err(|at| InputError::Kernel { what: "K(x, s) is not finite at x", at }.into())
     }
 }

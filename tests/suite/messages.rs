@@ -62,8 +62,11 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["layer of the upper body", "-9.5", "positive and finite"],
         ),
         (
-            ContactError::Input(InputError::Kernel { what: "the decay", at: -1.5 }),
-            &["the decay of the kernel", "-1.5"],
+            ContactError::Input(InputError::Kernel {
+                what: "its decay must be positive, but c",
+                at: -1.5,
+            }),
+            &["kernel", "its decay", "c = -1.5"],
         ),
         (
             ContactError::Input(InputError::LayerTooThin { ratio: 101.5, limit: 100.5 }),
@@ -75,7 +78,7 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
         ),
         (
             ContactError::Solve(SolveError::Bending { residual: 1.5, solves: 120, share: 0.5 }),
-            &["120 solves", "1.5", "0.5 of the load", "a smaller load"],
+            &["120 solves", "1.5", "0.5 of the load", "lower the load"],
         ),
         (
             ContactError::Evaluation(EvaluationError::HalfPlanesOnly { quantity: "the approach" }),

@@ -126,13 +126,16 @@ fn faulty_kernels_are_refused() {
     };
     for excess in [-1.5, f64::NAN, f64::INFINITY] {
         let faulty = Arc::new(Faulty { excess, decay: 1.0 });
-        assert_eq!(fault(contact.clone().compliance(faulty)), "the compliance");
+        assert_eq!(
+            fault(contact.clone().compliance(faulty)),
+            "the compliance is not a positive number at ω"
+        );
     }
     for decay in [0.0, -1.0, f64::NAN] {
         let faulty = Arc::new(Faulty { excess: 0.5, decay });
-        assert_eq!(fault(contact.clone().compliance(faulty)), "the decay");
+        assert!(fault(contact.clone().compliance(faulty)).contains("decay"));
     }
-    assert_eq!(fault(contact.clone().kernel(&NotANumber)), "K(x, s)");
+    assert_eq!(fault(contact.clone().kernel(&NotANumber)), "K(x, s) is not finite at x");
     // What is plain stays so: the kernel of nothing is not asked for.
     let plain = contact.clone().materials(RIGID, Material::elastic(1.0, 0.3), PlaneState::Strain);
     assert!(plain.solve(Control::Load(0.5)).unwrap().load_rates().is_ok());
