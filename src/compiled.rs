@@ -47,7 +47,7 @@ macro_rules! entries {
         gap_at(of: &Solution<'_, Self>, x: Self) -> Self = of.solved().gap_at(x);
         gap_slope(of: &Solution<'_, Self>, x: Self) -> Self = of.solved().gap_slope(x);
         certify(of: &Solution<'_, Self>) -> Certificate<Self> = certify(of.solved());
-        load_rates(of: &Solution<'_, Self>) -> LoadRates<Self> = LoadRates::new(of.solved());
+        load_rates(of: &Solution<'_, Self>) -> LoadRates<Self> = LoadRates::of(of.solved());
         approach(of: &Solution<'_, Self>, to: &References<Self>) -> Approach<Self>
             = Approaching::new(of.solved(), of.elasticity, to)?.of_all();
         approach_rate(of: &Solution<'_, Self>, to: &References<Self>) -> Self

@@ -22,7 +22,7 @@ mod spread;
 mod table;
 
 pub(crate) use bend::Bend;
-pub(crate) use correction::{Correction, Kept};
+pub(crate) use correction::{Correction, Kept, punch};
 pub(crate) use layers::Layers;
 pub(crate) use spread::Spread;
 pub(crate) use table::Table;
@@ -85,6 +85,8 @@ impl<T: Real> Formula<'_, T> {
 pub(crate) struct Kernel<'b, T: Real> {
     pub table: Option<Arc<Table<T>>>,
     pub formula: Option<Formula<'b, T>>,
+    /// Flag: all of it is layers.
+    pub is_of_layers: bool,
     /// Factor of both: less than 1 on the way to a solution.
     pub share: T,
 }
@@ -103,6 +105,13 @@ impl<T: Real> Kernel<'_, T> {
     /// Returns the integral of K by x.
     pub fn height(&self, x: T, s: T) -> T {
         self.share * self.parts().fold(T::zero(), |sum, part| sum + part.height(x, s))
+    }
+
+    /// Returns the length in the logarithm of a layer on a rigid base, with a share of the
+    /// compliance of the contact; `None` with a kernel of the user's.
+    pub fn absolute_length(&self, share: T) -> Option<T> {
+        let table = self.table.as_ref().filter(|_| self.is_of_layers)?;
+        Some(table.absolute_length(share))
     }
 
     /// Returns the distance of the nearest singularity of the kernel.

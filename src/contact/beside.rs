@@ -61,7 +61,8 @@ impl<'b, T: Real> Beside<'b, T> {
             }
             (None, _) => None,
         };
-        Ok(Some(Kernel { table, formula, share: T::one() }))
+        let is_of_layers = formula.is_none() && self.compliance.is_none();
+        Ok(Some(Kernel { table, formula, is_of_layers, share: T::one() }))
     }
 }
 

@@ -51,6 +51,20 @@ impl<'b, T: Real> Bend<'b, T> {
         Self { kernel: kernel.clone(), loads, on, rows }
     }
 
+    /// Returns the kernel.
+    pub fn kernel_of_bodies(&self) -> &Kernel<'b, T> {
+        &self.kernel
+    }
+
+    /// Returns the mean of `∫ r dx` of some pressures over their interval, with the weight
+    /// `1/(π sqrt((x + b)(a - x)))`.
+    pub fn mean_height(&self, of: &Spread<T>) -> T {
+        let loads = Loads::of(&self.kernel, std::slice::from_ref(of));
+        let [_, terms, _] = self.kernel.terms(of.on);
+        let heights = places(of.on, terms).map(|[x, _]| loads.height(&self.kernel, x));
+        heights.fold(T::zero(), |sum, height| sum + height) / T::count(terms)
+    }
+
     /// Returns K(x, s).
     pub fn kernel(&self, x: T, s: T) -> T {
         self.kernel.slope(x, s)

@@ -78,7 +78,7 @@ impl<T: Real> Correction<T> {
                 .map(|x| loads.height(kernel, x) - bend.map_or(T::zero(), |bend| bend.height(x)));
             to - from
         });
-        let Some(change) = system.solve(rises.collect()) else { return Ok(None) };
+        let Some(change) = system.solve(rises.collect(), T::zero()) else { return Ok(None) };
         let mut at = 0;
         for (spread, place) in spreads.iter_mut().zip(&system.places) {
             spread.q.resize(spread.q.len().max(place.terms), T::zero());
@@ -87,6 +87,25 @@ impl<T: Real> Correction<T> {
         }
         Ok(Some(Self { spreads, residual }))
     }
+}
+
+/// Returns the pressures of a flat punch on contacts under a unit load: the rate of the pressure by
+/// the load. `None` if the system is singular.
+pub(crate) fn punch<T: Real>(
+    kernel: &Kernel<'_, T>,
+    contacts: &[Interval<T>],
+) -> Option<Vec<Spread<T>>> {
+    let place = |&on: &Interval<T>| {
+        let [_, terms, _] = kernel.terms(on);
+        Place { on, terms, rho: vec![T::zero(); terms] }
+    };
+    let places: Vec<Place<T>> = contacts.iter().map(place).collect();
+    let system = System { kernel, places, kept: Kept::Load };
+    let gaps = vec![T::zero(); contacts.len() - 1];
+    let mut q = system.solve(gaps, T::one())?.into_iter();
+    let spread =
+        |place: &Place<T>| Spread { on: place.on, q: q.by_ref().take(place.terms).collect() };
+    Some(system.places.iter().map(spread).collect())
 }
 
 /// Contact in the system.
@@ -110,8 +129,8 @@ impl<T: Real> System<'_, '_, T> {
         self.places.windows(2).map(|pair| [pair[0].on.right, pair[1].on.left])
     }
 
-    /// Solves for the changes of the coefficients, given `∫ ρ` over the gaps.
-    fn solve(&self, rises: Vec<T>) -> Option<Vec<T>> {
+    /// Solves for the changes of the coefficients, given `∫ ρ` over the gaps and the last condition.
+    fn solve(&self, rises: Vec<T>, last: T) -> Option<Vec<T>> {
         // By columns: each the left sides of all equations for one unknown.
         let mut columns: Vec<Vec<T>> =
             (0..self.places.len()).flat_map(|j| self.columns(j)).collect();
@@ -123,7 +142,8 @@ impl<T: Real> System<'_, '_, T> {
             (0..count).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
         let of = |place: &Place<T>| second_kind(&place.rho);
         let mut right: Vec<T> = self.places.iter().flat_map(of).chain(rises).map(|a| -a).collect();
-        right.resize(count, T::zero());
+        right.resize(count - 1, T::zero());
+        right.push(last);
         let (mut system, mut change) = (LinearSystem::new(), Vec::new());
         if !system.factor(rows.iter().map(Vec::as_slice)) {
             return None;

@@ -2,16 +2,28 @@
 
 use super::Kernel;
 use crate::numerics::chebyshev::value_at;
-use crate::{Interval, Real};
+use crate::{Ends, Interval, Real};
 
 /// Pressure in one interval, `P = Σ q_k cos kθ/(π L sin θ)` with `x = c + L cos θ`.
-#[derive(Clone)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Spread<T> {
     pub on: Interval<T>,
     pub q: Vec<T>,
 }
 
 impl<T: Real> Spread<T> {
+    /// Returns the pressure at a place inside.
+    pub fn at(&self, x: T) -> T {
+        let z = self.on.angle(x).cos();
+        T::frac_1_pi() * value_at(&self.q, z) / self.on.chebyshev_weight(x)
+    }
+
+    /// Returns the strengths of the singularities at the limits, as shares of those of the same
+    /// load on a half-plane.
+    pub fn strengths(&self) -> Ends<T> {
+        Ends { left: value_at(&self.q, -T::one()), right: value_at(&self.q, T::one()) }
+    }
+
     /// Returns the same pressure, multiplied by a factor.
     pub fn times(&self, factor: T) -> Self {
         Self { on: self.on, q: self.q.iter().map(|&q| factor * q).collect() }

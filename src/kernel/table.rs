@@ -66,6 +66,17 @@ impl<T: Real> Table<T> {
         fault.map_or(Ok(Self { of, ends, rows }), Err)
     }
 
+    /// Returns the length ℓ for which the surface of a body with K(0) = 0, which is some share of
+    /// the compliance of the contact, approaches its rigid base by `1/(π M) ∫ P 2 ln(ℓ/|x - s|) ds`,
+    /// less its share of `∫ r dx/κ`: `ln(ℓ/c) = ∫ (K - 1 + exp(-ωc))/ω dω`.
+    pub fn absolute_length(&self, share: T) -> T {
+        let (decay, mut sum) = (self.of.decay(), T::zero());
+        wavenumbers(&*self.of, [T::zero(), decay], |omega, weight| {
+            sum += weight / omega * (self.of.excess(omega) / share + (-omega * decay).exp());
+        });
+        decay * sum.exp()
+    }
+
     /// Returns the panel of a distance, and the place in it from -1 to 1.
     fn place(&self, distance: T) -> (usize, T) {
         let panel = self.ends.iter().position(|&end| distance <= end).unwrap_or(PANELS - 1);

@@ -43,6 +43,7 @@ use super::pressure_integral::{Density, Integrals};
 use super::solved::Solved;
 use super::undeformed_gap::UndeformedGap;
 use crate::material::Elasticity;
+use crate::quadrature::{Panels, Quadrature};
 use crate::{
     ContactError, InputError, Interval, Real, Reference, References, Side, Solution, SolveError,
 };
@@ -133,6 +134,29 @@ pub(crate) struct Approaching<'s, T: Real> {
     solved: Solved<'s, T>,
     bodies: [Elasticity<T>; 2],
     references: References<T>,
+    /// Number of the body with a layer on a rigid base: its approach is absolute.
+    layered: Option<usize>,
+}
+
+/// Returns the body with a layer on a rigid base, and the length in its logarithm; `None` for bodies
+/// without a kernel. Other kernels are refused.
+fn absolute_length<T: Real>(
+    solved: &Solved<'_, T>,
+    bodies: &[Elasticity<T>; 2],
+) -> Result<Option<(usize, T)>, ContactError<T>> {
+    let Some(bend) = solved.gap.bend() else { return Ok(None) };
+    let is_rigid = |body: &Elasticity<T>| body.layer.map(|layer| layer.at_zero == -T::one());
+    let share = |i: usize| bodies[i].compliance / (bodies[0].compliance + bodies[1].compliance);
+    let length = match bodies.each_ref().map(is_rigid) {
+        [Some(true), None] => bend.kernel_of_bodies().absolute_length(share(0)).map(|l| (0, l)),
+        [None, Some(true)] => bend.kernel_of_bodies().absolute_length(share(1)).map(|l| (1, l)),
+        _ => None,
+    };
+    if length.is_none() || solved.several().is_some() {
+        let what = "the approach of several contacts, and of layers but one on a rigid base,";
+        solved.of_half_planes(what)?;
+    }
+    Ok(length)
 }
 
 /// Contact in which the bodies touched first, by its number, and the heights of the gap there.
@@ -148,8 +172,12 @@ impl<'s, T: Real> Approaching<'s, T> {
         references: &References<T>,
     ) -> Result<Self, ContactError<T>> {
         let bodies = bodies.ok_or(InputError::NoMaterials)?;
-        solved.of_half_planes("the approach")?;
-        let References { x, lower, upper } = *references;
+        let (mut references, mut layered) = (*references, None);
+        if let Some((body, length)) = absolute_length(&solved, &bodies)? {
+            let own = if body == 0 { &mut references.lower } else { &mut references.upper };
+            (*own, layered) = (Reference::Length(length), Some(body));
+        }
+        let References { x, lower, upper } = references;
         let half_width = solved.found.interval.half_width();
         let range = solved.gap.range();
         if !(x >= range[0] && x <= range[1]) {
@@ -165,12 +193,17 @@ impl<'s, T: Real> Approaching<'s, T> {
                 return Err(InputError::InvalidReference { length }.into());
             }
         }
-        Ok(Self { solved, bodies, references: *references })
+        Ok(Self { solved, bodies, references, layered })
     }
 
     fn first(&self) -> Result<First<T>, ContactError<T>> {
         let heights = |contact| UndeformedGap::new(self.solved, contact, self.references.x);
         let mut first = First { contact: 0, heights: heights(0)? };
+        if let Some(bend) = self.solved.gap.bend() {
+            // The bodies touched before they were bent.
+            let (left, kappa) = (self.solved.contacts()[0].left, self.solved.kappa);
+            first.heights.least = self.least_before_bend()? + bend.height(left) / kappa;
+        }
         if let Some(several) = self.solved.several() {
             let lowest = |at: &First<T>| several.height(at.contact, Side::Left) + at.heights.least;
             for contact in 1..self.solved.contacts().len() {
@@ -179,6 +212,16 @@ impl<'s, T: Real> Approaching<'s, T> {
             }
         }
         Ok(first)
+    }
+
+    /// Returns the least height of the bodies before they are bent, above that at the left limit.
+    fn least_before_bend(&self) -> Result<T, ContactError<T>> {
+        let Solved { gap, found, .. } = self.solved;
+        let before = &gap.before_bend().tilted(found.tilt);
+        let mut integrator = Panels::FULL.integrator()?;
+        integrator.prepare(before, found.interval)?;
+        let solved = Solved { gap: before, integrator: &*integrator, ..self.solved };
+        Ok(UndeformedGap::new(solved, 0, self.references.x)?.least)
     }
 
     /// Returns the unit of all lengths in logarithms.
@@ -193,6 +236,34 @@ impl<'s, T: Real> Approaching<'s, T> {
         (shares[0] * lower + shares[1] * upper) * T::frac_1_pi()
     }
 
+    /// Returns `∫ p (k_i + 2 ln|ξ|) ds` of each body for a density without a closed form.
+    fn smooth_by_integrals(
+        &self,
+        integrals: &Integrals<T, impl Density<T>>,
+    ) -> Result<[T; 2], ContactError<T>> {
+        integrals.over(self.references.x, |distance, strength| {
+            self.kernels(distance).map(|kernel| strength * kernel)
+        })
+    }
+
+    /// Returns `k_i + 2 ln|ξ|` of each body.
+    fn kernels(&self, distance: T) -> [T; 2] {
+        let (scale, two, one) = (self.scale(), T::of(2.0), T::one());
+        let References { lower, upper, .. } = self.references;
+        [(lower, self.bodies[0]), (upper, self.bodies[1])].map(
+            |(reference, body)| match reference {
+                _ if body.compliance.is_zero() => T::zero(),
+                Reference::Depth(depth) => {
+                    let radius = depth.hypot(distance);
+                    let down = depth / radius;
+                    two * (radius / scale).ln() - down * down / (one - body.ratio)
+                }
+                Reference::Disc(radius) => two * ((two * radius / scale).ln() - one),
+                Reference::Length(length) => two * (length / scale).ln(),
+            },
+        )
+    }
+
     /// Returns `∫ p (k_i + 2 ln|ξ|) ds` of each body.
     fn smooth(&self, integrals: &Integrals<T, impl Density<T>>) -> Result<[T; 2], ContactError<T>> {
         let scale = self.scale();
@@ -202,18 +273,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         let is_integral = |(reference, body): (Reference<T>, Elasticity<T>)| {
             matches!(reference, Reference::Depth(_)) && !body.compliance.is_zero()
         };
-        let kernel = |(reference, body): (Reference<T>, Elasticity<T>), distance: T| match reference
-        {
-            _ if body.compliance.is_zero() => T::zero(),
-            Reference::Depth(depth) => {
-                let radius = depth.hypot(distance);
-                let down = depth / radius;
-                two * (radius / scale).ln() - down * down / (one - body.ratio)
-            }
-            Reference::Disc(radius) => two * ((two * radius / scale).ln() - one),
-            Reference::Length(length) => two * (length / scale).ln(),
-        };
-        let constant = [lower, upper].map(|body| integrals.load * kernel(body, T::zero()));
+        let constant = self.kernels(T::zero()).map(|kernel| integrals.load * kernel);
         if !(is_integral(lower) || is_integral(upper)) {
             return Ok(constant);
         }
@@ -231,9 +291,7 @@ impl<'s, T: Real> Approaching<'s, T> {
                 return Ok([lower, upper]);
             }
         }
-        integrals.over(x, |distance, strength| {
-            [lower, upper].map(|body| strength * kernel(body, distance))
-        })
+        self.smooth_by_integrals(integrals)
     }
 
     /// Returns `∫ p G ds` of a contact.
@@ -281,7 +339,13 @@ impl<'s, T: Real> Approaching<'s, T> {
 
     /// Returns dδ/dF: with ∂P/∂F any contact may be the first.
     pub fn rate(&self) -> Result<T, ContactError<T>> {
-        let (rates, contacts) = (LoadRates::new(self.solved)?, self.solved.contacts());
+        let (rates, contacts) = (LoadRates::of(self.solved)?, self.solved.contacts());
+        if let (Some(bend), Some(punch)) = (self.solved.gap.bend(), rates.bent()) {
+            let integrals = Integrals::of_unit_load(&rates, contacts);
+            let logarithm = self.mean_logarithm(&integrals, contacts[0])?;
+            let smooth = self.smooth_by_integrals(&integrals)?;
+            return Ok(self.both(smooth, logarithm) - bend.mean_height(punch) / self.solved.kappa);
+        }
         if let [on] = *contacts {
             let References { lower, upper, .. } = self.references;
             let [one, other] = self.bodies;
@@ -334,7 +398,10 @@ impl<'s, T: Real> Approaching<'s, T> {
         let (smooth, first) = (self.smooth(&integrals)?, self.first()?);
         let logarithm = self.logarithm(&integrals, &first)?;
         let of = |i: usize| {
-            self.bodies[i].compliance * T::frac_1_pi() * (smooth[i] - T::of(2.0) * logarithm)
+            let all = self.bodies[i].compliance * T::frac_1_pi();
+            let bend = self.solved.gap.bend().filter(|_| self.layered == Some(i));
+            let bent = bend.map_or(T::zero(), |bend| bend.height(self.references.x));
+            all * (smooth[i] - T::of(2.0) * logarithm) - bent / self.solved.kappa
         };
         let bodies = self.of_bodies(&integrals, smooth, &first)?;
         Ok(Approach { bodies, lower: of(0), upper: of(1) })

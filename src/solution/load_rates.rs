@@ -2,6 +2,7 @@
 
 use super::pressure_integral::Density;
 use super::solved::Solved;
+use crate::kernel::{Spread, punch};
 use crate::quadrature::panels::LoadResponse;
 use crate::{ContactError, Ends, EvaluationError, Interval, Real, Solution};
 
@@ -54,6 +55,8 @@ pub struct LoadRates<T> {
 #[derive(Clone, Debug, PartialEq)]
 enum Touching<T> {
     One(Interval<T>),
+    /// One contact of bodies that are not half-planes.
+    Bent(Spread<T>),
     Several(Box<LoadResponse<T>>),
 }
 
@@ -67,6 +70,14 @@ impl<T: Real> Density<T> for &LoadRates<T> {
 }
 
 impl<T: Real> LoadRates<T> {
+    /// Returns the rate of the pressure of bodies that are not half-planes.
+    pub(super) fn bent(&self) -> Option<&Spread<T>> {
+        match &self.punch {
+            Touching::Bent(spread) => Some(spread),
+            _ => None,
+        }
+    }
+
     /// Creates the derivatives of a single contact.
     fn of_one(limits: Ends<T>, on: Interval<T>) -> Self {
         let Ends { left, right } = limits;
@@ -80,13 +91,14 @@ impl<T: Real> LoadRates<T> {
     /// [`EvaluationError::InvalidPosition`] for NaN.
     pub fn pressure(&self, x: T) -> Result<T, ContactError<T>> {
         let contacts = match &self.punch {
-            Touching::One(on) => std::slice::from_ref(on),
+            Touching::One(on) | Touching::Bent(Spread { on, .. }) => std::slice::from_ref(on),
             Touching::Several(punch) => punch.contacts(),
         };
         let i = contacts.partition_point(|on| on.right < x);
         match contacts.get(i) {
             Some(on) if on.contains(x) => Ok(match &self.punch {
                 Touching::One(on) => T::frac_1_pi() / on.chebyshev_weight(x),
+                Touching::Bent(spread) => spread.at(x),
                 Touching::Several(punch) => punch.pressure(i, x),
             }),
             Some(on) if x == on.left || x == on.right => {
@@ -110,12 +122,33 @@ impl<T: Real> Solution<'_, T> {
     /// ([`Midpoint`](crate::Midpoint)), unless both limits are given; where contacts appear or
     /// merge.
     pub fn load_rates(&self) -> Result<LoadRates<T>, ContactError<T>> {
-        self.solved().of_half_planes("the derivative by the load")?;
         T::load_rates(self)
     }
 }
 
 impl<T: Real> LoadRates<T> {
+    /// Returns the derivatives of a contact, of bodies with a layer or another kernel, too: the bend
+    /// changes with the load.
+    pub(crate) fn of(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
+        let held = Self::new(solved);
+        let Some(bend) = solved.gap.bend() else { return held };
+        let refuse = |why| Err(EvaluationError::NoLoadDerivative { why }.into());
+        if solved.several().is_some() {
+            return refuse("several contacts of bodies with a layer, or another kernel");
+        }
+        let spreads = punch(bend.kernel_of_bodies(), solved.contacts());
+        let Some(spread) = spreads.and_then(|mut spreads| spreads.pop()) else {
+            return refuse("the equation of a punch on the layer is singular");
+        };
+        // A limit moves by the strength of the punch there.
+        let Ends { left, right } = spread.strengths();
+        let Self { limits, .. } = held?;
+        let limits = Ends { left: left * limits[0].left, right: right * limits[0].right };
+        let punch = Touching::Bent(spread);
+        Ok(Self { a: limits.right, b: -limits.left, limits: vec![limits], punch })
+    }
+
+    /// Returns the derivatives of a contact of half-planes, or of bodies with a given bend.
     pub(crate) fn new(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
         let Solved { found, kappa, .. } = solved;
         let on = found.interval;
