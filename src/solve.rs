@@ -135,7 +135,7 @@ fn find_checked<'b, T: Real>(
     work: &mut Work<'_, T>,
 ) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
     (work.workspace.report, work.workspace.cell_work) = (Report::new(), 0);
-    let (mut found, gap) = match bending::kernel(contact, control)? {
+    let (mut found, gap) = match bending::kernel(contact)? {
         None => (find_under(contact, control, work)?, contact.gap.clone()),
         Some(kernel) => bending::find(contact, &kernel, control, work)?,
     };

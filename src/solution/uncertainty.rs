@@ -55,7 +55,6 @@ impl<T: Real> Solution<'_, T> {
     /// [`peak`](Self::peak).
     pub fn uncertainty(&self) -> Result<Uncertainty<T>, ContactError<T>> {
         self.solved().of_half_planes("the uncertainty")?;
-        self.solved().of_half_planes("the uncertainty")?;
         let (on, LoadRates { a, b, .. }) = (self.hull(), self.load_rates()?);
         if self.intervals().len() > 1 {
             return Err(EvaluationError::NoUncertainty { why: "there are several contacts" }.into());

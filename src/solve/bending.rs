@@ -12,6 +12,7 @@
 //! the load is smaller in the beginning. On a base far softer than its coating the first one is far
 //! too narrow: then the kernel is.
 
+use super::by_load::{self, ByApproach};
 use super::{Contact, Control, Work, find_under};
 use crate::gap::Gap;
 use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
@@ -47,7 +48,6 @@ const MOST_TIMES: f64 = 2.0;
 /// Returns the kernel of a scene, if it has one, after a check that it can be solved.
 pub(super) fn kernel<'b, T: Real>(
     contact: &Contact<'b, T>,
-    control: Control<T>,
 ) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
     let Some(kernel) = contact.kernel_of_bodies()? else { return Ok(None) };
     let refuse = |why| Err(InputError::KernelNotSupported { why }.into());
@@ -63,9 +63,6 @@ pub(super) fn kernel<'b, T: Real>(
     if contact.quadrature.integrator()?.panels().is_none() {
         return refuse("the quadrature is another");
     }
-    if matches!(control, Control::Approach { .. }) {
-        return refuse("the approach is given");
-    }
     Ok(Some(kernel))
 }
 
@@ -76,6 +73,11 @@ pub(super) fn find<'b, T: Real>(
     control: Control<T>,
     work: &mut Work<'_, T>,
 ) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
+    if let Control::Approach { approach, references } = control {
+        let bodies = contact.elasticity()?.ok_or(InputError::NoMaterials)?;
+        let by = ByApproach { references, bodies };
+        return by_load::find_of(contact, Some(kernel), &by, ("approach", approach), work);
+    }
     let spreads = warm(std::mem::take(&mut work.workspace.spreads), control);
     let (before, one) = (T::one() / T::zero(), T::one());
     let [from, target] = [Vec::new(), Vec::new()];

@@ -20,8 +20,9 @@ mod tests;
 
 use super::capacity::Capacity;
 use super::edges::{Conditions, Given};
-use super::{Contact, Work, check_positive, topology};
-use crate::gap::Asked;
+use super::{Contact, Control, Work, bending, check_positive, topology};
+use crate::gap::{Asked, Gap};
+use crate::kernel::Kernel;
 use crate::quadrature::panels;
 use crate::search::SearchError;
 use crate::solution::{ContactState, Report, Solved};
@@ -56,10 +57,10 @@ type Bound<T> = Result<ControlFlow<ContactState<T>, Point<T>>, ContactError<T>>;
 /// Quantity that is given instead of the load.
 pub(super) trait Quantity<T: Real> {
     /// Returns the load to try first.
-    fn first_load(&self, search: &mut ByLoad<'_, '_, T>) -> Result<T, ContactError<T>>;
+    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Result<T, ContactError<T>>;
 
     /// Returns the value in a contact found.
-    fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, T>) -> Value<T>;
+    fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, '_, T>) -> Value<T>;
 
     /// Tells whether the quantity may fall between first touch and a load under which it rises.
     fn may_fall(&self, contact: &Contact<'_, T>) -> bool;
@@ -70,7 +71,7 @@ pub(super) trait Quantity<T: Real> {
     }
 
     /// Returns the error for a value that occurs under no load, if it has one of its own.
-    fn none(&self, _: &ByLoad<'_, '_, T>) -> Option<ContactError<T>> {
+    fn none(&self, _: &ByLoad<'_, '_, '_, T>) -> Option<ContactError<T>> {
         None
     }
 }
@@ -94,8 +95,11 @@ impl<T: Real> Point<T> {
 }
 
 /// Search for the load under which a quantity has the wanted value.
-pub(super) struct ByLoad<'s, 'w, T: Real> {
-    contact: &'s Contact<'s, T>,
+pub(super) struct ByLoad<'s, 'w, 'b, T: Real> {
+    contact: &'s Contact<'b, T>,
+    kernel: Option<&'s Kernel<'b, T>>,
+    /// Bodies of the contact found last: bent, with a kernel.
+    gap: Gap<'b, T>,
     quantity: &'s dyn Quantity<T>,
     name: &'static str,
     wanted: T,
@@ -115,16 +119,43 @@ pub(super) struct ByLoad<'s, 'w, T: Real> {
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     quantity: &dyn Quantity<T>,
-    (name, wanted): (&'static str, T),
+    asked: (&'static str, T),
     work: &mut Work<'_, T>,
 ) -> Result<ContactState<T>, ContactError<T>> {
+    find_of(contact, None, quantity, asked, work).map(|(found, _)| found)
+}
+
+/// Finds the contact of bodies with a kernel, if any, and returns it with the bent bodies.
+pub(super) fn find_of<'b, T: Real>(
+    contact: &Contact<'b, T>,
+    kernel: Option<&Kernel<'b, T>>,
+    quantity: &dyn Quantity<T>,
+    (name, wanted): (&'static str, T),
+    work: &mut Work<'_, T>,
+) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
     check_positive(name, wanted)?;
     let (follows, low, high, fault) = (quantity.may_fall(contact), None, None, None);
     let steps = [T::one() / T::zero(); 2];
-    ByLoad { contact, quantity, name, wanted, work, follows, low, high, steps, fault }.run()
+    let gap = contact.gap.clone();
+    let mut search = ByLoad {
+        contact,
+        kernel,
+        gap,
+        quantity,
+        name,
+        wanted,
+        work,
+        follows,
+        low,
+        high,
+        steps,
+        fault,
+    };
+    let found = search.run()?;
+    Ok((found, search.gap))
 }
 
-impl<T: Real> ByLoad<'_, '_, T> {
+impl<T: Real> ByLoad<'_, '_, '_, T> {
     fn run(&mut self) -> Result<ContactState<T>, ContactError<T>> {
         let mut first = self.quantity.first_load(self)?;
         first *= if self.follows { T::of(FIRST_TOUCH) } else { T::one() };
@@ -219,7 +250,7 @@ impl<T: Real> ByLoad<'_, '_, T> {
 
     /// Returns a contact found, with all data of its pressure.
     fn solved<'f>(&'f self, found: &'f ContactState<T>) -> Solved<'f, T> {
-        let (gap, kappa) = (&self.contact.gap, self.contact.kappa);
+        let (gap, kappa) = (&self.gap, self.contact.kappa);
         Solved { gap, integrator: &*self.work.integrator, kappa, found }
     }
 
@@ -259,6 +290,12 @@ impl<T: Real> ByLoad<'_, '_, T> {
     /// Finds the contacts under some conditions, ready for their pressures.
     fn solve(&mut self, conditions: Conditions<T>) -> Result<ContactState<T>, ContactError<T>> {
         let Self { contact, work, .. } = self;
+        if let Some(kernel) = self.kernel {
+            let control = Control::Load(conditions.load());
+            let (found, gap) = bending::find(contact, kernel, control, work)?;
+            self.gap = gap;
+            return Ok(found);
+        }
         work.workspace.report = Report::new();
         let found = topology::find(contact, conditions, work)?;
         work.keep(&contact.gap, found.interval)?;

@@ -24,11 +24,11 @@ pub(in super::super) struct ByApproach<T> {
 }
 
 impl<T: Real> Quantity<T> for ByApproach<T> {
-    fn first_load(&self, search: &mut ByLoad<'_, '_, T>) -> Result<T, ContactError<T>> {
+    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Result<T, ContactError<T>> {
         Ok(T::of(FIRST_LOAD) * search.contact.kappa * search.wanted)
     }
 
-    fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, T>) -> Value<T> {
+    fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, '_, T>) -> Value<T> {
         let at = Approaching::new(search.solved(found), Some(self.bodies), &self.references)?;
         let [value, rate] = at.with_rate()?;
         Ok([value, rate, T::zero()])
@@ -38,7 +38,7 @@ impl<T: Real> Quantity<T> for ByApproach<T> {
         false
     }
 
-    fn none(&self, search: &ByLoad<'_, '_, T>) -> Option<ContactError<T>> {
+    fn none(&self, search: &ByLoad<'_, '_, '_, T>) -> Option<ContactError<T>> {
         let Point { load, value: approach, .. } = search.low.filter(|low| low.value > T::zero())?;
         let Some(ContactError::Solve(SolveError::DomainTooShort { .. })) = search.fault else {
             return None;

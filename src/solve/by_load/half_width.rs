@@ -11,11 +11,11 @@ use crate::{ContactError, Ends, Real};
 pub(in super::super) struct HalfWidth;
 
 impl<T: Real> Quantity<T> for HalfWidth {
-    fn first_load(&self, search: &mut ByLoad<'_, '_, T>) -> Result<T, ContactError<T>> {
+    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Result<T, ContactError<T>> {
         search.surveyed(Asked::HalfWidth(search.wanted), false)
     }
 
-    fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, T>) -> Value<T> {
+    fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, '_, T>) -> Value<T> {
         let (on, load, peak) = (found.interval, found.load, T::one() / T::zero());
         let half_width = on.half_width();
         // No load widens a contact from corner to corner.

@@ -26,11 +26,11 @@ impl Peak {
 }
 
 impl<T: Real> Quantity<T> for Peak {
-    fn first_load(&self, search: &mut ByLoad<'_, '_, T>) -> Result<T, ContactError<T>> {
+    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Result<T, ContactError<T>> {
         search.surveyed(Asked::Peak(search.wanted / search.contact.kappa), true)
     }
 
-    fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, T>) -> Value<T> {
+    fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, '_, T>) -> Value<T> {
         let ByLoad { contact, work, .. } = search;
         let (gap, kappa, load) = (&contact.gap, contact.kappa, found.load);
         let solved = Solved { gap, integrator: &*work.integrator, kappa, found };
@@ -52,7 +52,7 @@ impl<T: Real> Quantity<T> for Peak {
         Some((widest.peak, widest.too_high(wanted)))
     }
 
-    fn none(&self, search: &ByLoad<'_, '_, T>) -> Option<ContactError<T>> {
+    fn none(&self, search: &ByLoad<'_, '_, '_, T>) -> Option<ContactError<T>> {
         // It is too large under any load.
         let (wanted, half_width) = (search.wanted, search.hull().half_width());
         let found = search.high.map_or(T::of(f64::NAN), |high| high.value);

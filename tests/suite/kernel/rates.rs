@@ -28,6 +28,10 @@ fn approaches_agree_with_values_of_22_digits() {
             // At x = 0 the bodies touched first.
             let own = if lower { approach.lower } else { approach.upper };
             assert!((own / delta - 1.0).abs() < 1e-13, "{name}: {own}");
+            let control = Control::Approach { approach: delta, references: TO };
+            let again = contact.solve(control).unwrap();
+            assert!((again.load() / load - 1.0).abs() < 1e-13, "{name}: {}", again.load());
+            assert!(again.report().is_checked());
         }
     }
 }

@@ -31,8 +31,6 @@ fn settings_that_no_kernel_allows() {
     assert!(refusal(&midpoint, load).contains("quadrature"));
     let references =
         References { x: 0.0, lower: Reference::Depth(2.0), upper: Reference::Depth(2.0) };
-    let approach = Control::Approach { approach: 0.1, references };
-    assert!(refusal(&contact, approach).contains("approach"));
     let shear = Shear { friction: 0.3, force: 0.01, tension: 0.0 };
     let slip = contact.partial_slip(load, shear).map(|_| ()).unwrap_err();
     assert!(slip.to_string().contains("layer"), "{slip}");
