@@ -12,7 +12,7 @@
 //! the load is smaller in the beginning. On a base far softer than its coating the first one is far
 //! too narrow: then the kernel is.
 
-use super::by_load::{self, ByApproach};
+use super::by_load::{self, ByApproach, HalfWidth};
 use super::{Contact, Control, Work, find_under};
 use crate::gap::Gap;
 use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
@@ -82,12 +82,12 @@ pub(super) fn find<'b, T: Real>(
     let (before, one) = (T::one() / T::zero(), T::one());
     let [from, target] = [Vec::new(), Vec::new()];
     let (part, share, reached, growth, fault) = (one, one, T::zero(), T::of(GROWTH), None);
-    let (kernel, along) = (kernel.clone(), Along::Load);
-    Bending {
+    let along = Along::Load;
+    let found = Bending {
         contact,
-        kernel,
+        kernel: kernel.clone(),
         control,
-        work,
+        work: &mut *work,
         spreads,
         from,
         target,
@@ -99,7 +99,14 @@ pub(super) fn find<'b, T: Real>(
         growth,
         fault,
     }
-    .find()
+    .find();
+    match (found, control) {
+        // The same bodies without the kernel, or with that of another load, may not be as wide.
+        (Err(ContactError::Solve(_)), Control::HalfWidth(half_width)) => {
+            by_load::find_of(contact, Some(kernel), &HalfWidth, ("half-width", half_width), work)
+        }
+        (found, _) => found,
+    }
 }
 
 /// Returns the pressures of the last solve, in proportion to the load.

@@ -212,6 +212,9 @@ fn a_kernel_by_a_formula_is_that_of_a_row_of_contacts() {
         let owned = owned.owned_kernel(Arc::new(Row { period }));
         let again = owned.solve(Control::Load(solution.load())).unwrap();
         assert_eq!(again.intervals(), solution.intervals());
+        // Without the kernel, half-planes are not as wide under any load.
+        let by_width = owned.solve(Control::HalfWidth(half_width)).unwrap();
+        assert!((by_width.load() / solution.load() - 1.0).abs() < 1e-12);
     }
 }
 

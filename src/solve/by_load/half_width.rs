@@ -23,7 +23,7 @@ impl<T: Real> Quantity<T> for HalfWidth {
             let widest = Capacity { half_width, end: on.right, load, peak };
             return Err(widest.too_wide(search.wanted));
         }
-        let rates = LoadRates::new(search.solved(found))?;
+        let rates = LoadRates::of(search.solved(found))?;
         Ok([half_width, T::of(0.5) * (rates.a + rates.b), T::zero()])
     }
 
