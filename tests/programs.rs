@@ -29,6 +29,8 @@ mod measured_profile;
 mod paper;
 #[path = "../examples/pieces.rs"]
 mod pieces;
+#[path = "../examples/printing_nip.rs"]
+mod printing_nip;
 #[path = "../examples/quickstart.rs"]
 mod quickstart;
 #[path = "../examples/reference_tables/main.rs"]
@@ -61,7 +63,7 @@ macro_rules! program {
 }
 
 /// Programs, the longest first.
-const PROGRAMS: [Program; 19] = [
+const PROGRAMS: [Program; 20] = [
     program!(fuzz "0" "2000"),
     program!(measured_profile),
     program!(speed_vs_error "--check"),
@@ -76,6 +78,7 @@ const PROGRAMS: [Program; 19] = [
     program!(gear_mesh),
     program!(paper),
     program!(pieces),
+    program!(printing_nip),
     program!(quickstart),
     program!(roller_and_wheel),
     program!(rough_profile),

@@ -57,11 +57,11 @@ struct Made {
 }
 
 impl Quantity<f64> for Made {
-    fn first_load(&self, _: &mut ByLoad<'_, '_, f64>) -> Result<f64, ContactError<f64>> {
+    fn first_load(&self, _: &mut ByLoad<'_, '_, '_, f64>) -> Result<f64, ContactError<f64>> {
         Ok(self.first)
     }
 
-    fn at(&self, found: &ContactState<f64>, search: &mut ByLoad<'_, '_, f64>) -> Value<f64> {
+    fn at(&self, found: &ContactState<f64>, search: &mut ByLoad<'_, '_, '_, f64>) -> Value<f64> {
         let [value, rate] = (self.of)(search.solved(found));
         Ok([value, rate, 0.0])
     }
