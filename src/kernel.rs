@@ -148,7 +148,8 @@ impl<T: Real> Kernel<'_, T> {
     }
 
     /// Returns the number of nodes for integrals of a pressure times the kernel: K(x, s) is to
-    /// rounding a polynomial of degree 8 + 36 L/c in s, and the rule is exact up to twice its nodes.
+    /// rounding a polynomial of degree 8 + 36 L/c in s, and the rule is exact up to twice its
+    /// nodes.
     fn nodes(&self, spread: &Spread<T>) -> usize {
         let degree = T::of(8.0) + T::of(18.0) * self.ratio(spread.on) + T::count(spread.q.len());
         at_least(T::of(0.5) * degree)

@@ -129,7 +129,8 @@ impl<T: Real> System<'_, '_, T> {
         self.places.windows(2).map(|pair| [pair[0].on.right, pair[1].on.left])
     }
 
-    /// Solves for the changes of the coefficients, given `∫ ρ` over the gaps and the last condition.
+    /// Solves for the changes of the coefficients, given `∫ ρ` over the gaps and the last
+    /// condition.
     fn solve(&self, rises: Vec<T>, last: T) -> Option<Vec<T>> {
         // By columns: each the left sides of all equations for one unknown.
         let mut columns: Vec<Vec<T>> =

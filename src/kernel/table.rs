@@ -67,8 +67,8 @@ impl<T: Real> Table<T> {
     }
 
     /// Returns the length ℓ for which the surface of a body with K(0) = 0, which is some share of
-    /// the compliance of the contact, approaches its rigid base by `1/(π M) ∫ P 2 ln(ℓ/|x - s|) ds`,
-    /// less its share of `∫ r dx/κ`: `ln(ℓ/c) = ∫ (K - 1 + exp(-ωc))/ω dω`.
+    /// the compliance of the contact, approaches its rigid base by `1/(π M) ∫ P 2 ln(ℓ/|x - s|)
+    /// ds`, less its share of `∫ r dx/κ`: `ln(ℓ/c) = ∫ (K - 1 + exp(-ωc))/ω dω`.
     pub fn absolute_length(&self, share: T) -> T {
         let (decay, mut sum) = (self.of.decay(), T::zero());
         wavenumbers(&*self.of, [T::zero(), decay], |omega, weight| {

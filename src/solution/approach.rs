@@ -138,8 +138,8 @@ pub(crate) struct Approaching<'s, T: Real> {
     layered: Option<usize>,
 }
 
-/// Returns the body with a layer on a rigid base, and the length in its logarithm; `None` for bodies
-/// without a kernel. Other kernels are refused.
+/// Returns the body with a layer on a rigid base, and the length in its logarithm; `None` for
+/// bodies without a kernel. Other kernels are refused.
 fn absolute_length<T: Real>(
     solved: &Solved<'_, T>,
     bodies: &[Elasticity<T>; 2],

@@ -127,8 +127,8 @@ impl<T: Real> Solution<'_, T> {
 }
 
 impl<T: Real> LoadRates<T> {
-    /// Returns the derivatives of a contact, of bodies with a layer or another kernel, too: the bend
-    /// changes with the load.
+    /// Returns the derivatives of a contact, of bodies with a layer or another kernel, too: the
+    /// bend changes with the load.
     pub(crate) fn of(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
         let held = Self::new(solved);
         let Some(bend) = solved.gap.bend() else { return held };

@@ -272,9 +272,9 @@ class KernelError(InputError):
     Attributes
     ----------
     what : str
-        Quantity at fault.
+        Fault, for the message.
     at : float
-        Its value; of a compliance, the wavenumber.
+        Length at fault; of a value that is, its place or wavenumber.
     """
 
     what: str
