@@ -12,6 +12,9 @@
 //!
 //! cold: from the bodies to the limits. next: with a `Solver`, a load 2 % above the one before,
 //! then back; evaluations are counted the first time, when nothing is known beyond the lower load.
+//! `layer0.3` and `layer1` are circles on a bonded layer a tenth of the radius thick, and the contact is
+//! wide by that share of the thickness, to one side. They are only counted, by `repeat`.
+//!
 //! In `bare-cold` and `bare-next` one interval is sought and not checked
 //! (`Contact::single_interval`).
 
@@ -24,8 +27,8 @@ mod scenes;
 mod timing;
 
 use linecontact::profile::{Crowning, Ellipse, Involute, Parabola, Spline};
-use linecontact::{Contact, Control, Convexity, Cost, CurvePoint, Flat, Solver};
-use linecontact::{ParametricProfile, Piece};
+use linecontact::{Base, Contact, Control, Convexity, Cost, Curve, CurvePoint, Flat, Layer};
+use linecontact::{Material, ParametricProfile, Piece, PlaneState, Solver};
 use scenes::{SCENES, Scene, scene};
 use std::hint::black_box;
 use timing::time;
@@ -37,10 +40,12 @@ const NEXT: f64 = 1.02;
 
 /// Passes a case to the visitor: a call that solves it once and returns its cost.
 fn solves(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost)) {
-    let Scene { lower, upper, load } = scene(name);
+    let ratio = name.strip_prefix("layer").map(|ratio| ratio.parse().expect("a number"));
+    let Scene { lower, upper, load } = ratio.map_or_else(|| scene(name), on_layer);
     let is_bare = case.starts_with("bare");
     let contact = || {
         let contact = Contact::new(&*lower, &*upper).expect("they overlap");
+        let contact = if ratio.is_some() { layered(contact) } else { contact };
         if is_bare { contact.single_interval(true) } else { contact }
     };
     let control = |factor: f64| Control::Load(black_box(factor * load));
@@ -55,6 +60,24 @@ fn solves(name: &str, case: &str, visit: impl FnOnce(&mut dyn FnMut() -> Cost)) 
         let factor = if is_heavy { NEXT } else { 1.0 };
         solver.solve(&contact, control(factor)).expect(done).cost()
     });
+}
+
+/// Makes body 1 a layer of thickness 1 on a rigid base.
+fn layered(contact: Contact<'_, f64>) -> Contact<'_, f64> {
+    let layer = Layer { material: Material::elastic(1.0, 0.3), thickness: 1.0, base: Base::Bonded };
+    contact.materials(layer, Material::Rigid, PlaneState::Strain)
+}
+
+/// Returns a circle of radius 10, and the load under which it touches such a layer over twice a
+/// half-width.
+fn on_layer(half_width: f64) -> Scene {
+    let circle = Curve::new([-1.5, 1.5], |k: f64| {
+        let (sin, cos) = k.sin_cos();
+        CurvePoint { x: 10.0 * sin, y: 10.0 * (1.0 - cos), dx: 10.0 * cos, dy: 10.0 * sin }
+    });
+    let contact = layered(Contact::new(&Flat, &circle).expect("they overlap"));
+    let load = contact.solve(Control::HalfWidth(half_width)).expect("it is on the circle").load();
+    Scene { lower: Box::new(Flat), upper: Box::new(circle), load }
 }
 
 /// Prints a line for each scene: the time of the default solve in µs and relative to the bare

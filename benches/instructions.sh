@@ -63,7 +63,7 @@ counts() {
     done
 
     printf '\nscene\tcold\tbare-cold\tnext\tbare-next\n'
-    for scene in parabola circle example3 example4 wave; do
+    for scene in parabola circle example3 example4 wave layer0.3 layer1; do
         printf '%s' "$scene"
         for case in cold bare-cold next bare-next; do
             # An even number, as two loads take turns.

@@ -120,17 +120,20 @@ impl<T: Real> Kernel<'_, T> {
         distances.fold(T::one() / T::zero(), |least, distance| least.min(distance))
     }
 
-    /// Returns the sum of K(x, s), or of its integral by x, over loads at places s.
-    fn sum(&self, which: usize, x: T, loads: &[[T; 2]]) -> T {
-        let mut sum = self.table.as_ref().map_or(T::zero(), |table| table.sum(which, x, loads));
+    /// Returns sums of K(x, s) (0) or of its integral by x (1) over loads at places s.
+    fn sums<const N: usize>(&self, which: [usize; N], x: T, loads: &[[T; 2]]) -> [T; N] {
+        let table = self.table.as_ref();
+        let mut sums = table.map_or([T::zero(); N], |table| table.sums(which, x, loads));
         if let Some(formula) = &self.formula {
             let kernel = formula.kernel();
             for &[s, load] in loads {
-                let value = if which == 0 { kernel.slope(x, s) } else { kernel.height(x, s) };
-                sum += load * value;
+                for (sum, which) in sums.iter_mut().zip(which) {
+                    let value = if which == 0 { kernel.slope(x, s) } else { kernel.height(x, s) };
+                    *sum += load * value;
+                }
             }
         }
-        self.share * sum
+        sums.map(|sum| self.share * sum)
     }
 
     /// Returns numbers of terms on an interval: of a pressure that is corrected, of r, and the most

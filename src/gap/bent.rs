@@ -53,7 +53,8 @@ impl<'b, T: Real> Bent<'b, T> {
 /// Returns a point of a curve after the bend.
 fn bent<T: Real>(point: CurvePoint<T>, bend: &Bend<'_, T>, scale: T) -> CurvePoint<T> {
     let CurvePoint { x, y, dx, dy } = point;
-    CurvePoint { x, y: y + scale * bend.height(x), dx, dy: dy + scale * bend.slope(x) * dx }
+    let [slope, height] = bend.both(x);
+    CurvePoint { x, y: y + scale * height, dx, dy: dy + scale * slope * dx }
 }
 
 impl<T: Real> Part<'_, T> {

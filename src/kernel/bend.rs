@@ -86,6 +86,14 @@ impl<'b, T: Real> Bend<'b, T> {
         }
     }
 
+    /// Returns r and `∫ r dx` at x.
+    pub fn both(&self, x: T) -> [T; 2] {
+        match self.row(x) {
+            Some((row, z)) => [value_at(&row.slope, z), value_at(&row.height, z)],
+            None => self.loads.both(&self.kernel, x),
+        }
+    }
+
     /// Returns the panel that contains x, and the place in it.
     fn row(&self, x: T) -> Option<(&Row<T>, T)> {
         let Interval { left, right } = self.on;

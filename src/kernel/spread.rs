@@ -77,11 +77,16 @@ impl<T: Real> Loads<T> {
 
     /// Returns r at x.
     pub fn slope(&self, kernel: &Kernel<'_, T>, x: T) -> T {
-        kernel.sum(0, x, &self.nodes)
+        kernel.sums([0], x, &self.nodes)[0]
     }
 
     /// Returns `∫ r dx` at x, up to a constant.
     pub fn height(&self, kernel: &Kernel<'_, T>, x: T) -> T {
-        kernel.sum(1, x, &self.nodes)
+        kernel.sums([1], x, &self.nodes)[0]
+    }
+
+    /// Returns both.
+    pub fn both(&self, kernel: &Kernel<'_, T>, x: T) -> [T; 2] {
+        kernel.sums([0, 1], x, &self.nodes)
     }
 }

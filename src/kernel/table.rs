@@ -92,14 +92,16 @@ impl<T: Real> Table<T> {
 
     /// Returns the sum of Γ, or of its integral, over loads at some places. Neighbours on one panel
     /// are summed together.
-    pub fn sum(&self, which: usize, x: T, loads: &[[T; 2]]) -> T {
-        let (mut total, mut z, mut weights, mut count) =
-            (T::zero(), [T::zero(); LANES], [T::zero(); LANES], 0);
-        let mut on = 0;
-        let mut flush = |panel: usize, z: &[T; LANES], weights: &mut [T; LANES]| {
-            let values = values(&self.row(panel)[which], z);
-            total += dot(&values, &*weights);
-            *weights = [T::zero(); LANES];
+    pub fn sums<const N: usize>(&self, which: [usize; N], x: T, loads: &[[T; 2]]) -> [T; N] {
+        let (mut totals, mut z, mut weights) =
+            ([T::zero(); N], [T::zero(); LANES], [[T::zero(); LANES]; 2]);
+        let (mut count, mut on) = (0, 0);
+        let mut flush = |panel: usize, z: &[T; LANES], weights: &mut [[T; LANES]; 2]| {
+            let row = self.row(panel);
+            for (total, which) in totals.iter_mut().zip(which) {
+                *total += dot(&values(&row[which], z), &weights[which]);
+            }
+            *weights = [[T::zero(); LANES]; 2];
         };
         for &[s, load] in loads {
             let (panel, place) = self.place((x - s).abs());
@@ -107,15 +109,15 @@ impl<T: Real> Table<T> {
                 flush(on, &z, &mut weights);
                 count = 0;
             }
-            on = panel;
+            (on, z[count]) = (panel, place);
             // Γ is odd, and its integral is even.
-            (z[count], weights[count]) = (place, if which == 0 && x < s { -load } else { load });
+            (weights[0][count], weights[1][count]) = (if x < s { -load } else { load }, load);
             count += 1;
         }
         if count > 0 {
             flush(on, &z, &mut weights);
         }
-        total
+        totals
     }
 
     fn panel(&self, panel: usize) -> [T; 2] {

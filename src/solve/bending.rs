@@ -171,7 +171,7 @@ struct Solve<'b, T: Real> {
 
 impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn find(&mut self) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
-        let (mut is_checked, mut left) = (true, T::DERIVATIVE_ORDER);
+        let (mut is_checked, mut left) = (self.spreads.len() != 1, T::DERIVATIVE_ORDER);
         for _ in 0..MAX_SOLVES {
             let solved = match self.solve(is_checked) {
                 Ok(solved) => solved,
