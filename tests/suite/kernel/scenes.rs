@@ -25,7 +25,8 @@ fn random_layer(random: &mut Dice) -> (Layer<f64>, f64) {
 fn random_coated_bodies_meet_the_equation() {
     let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(12);
     let mut refused = 0;
-    for seed in 0..count {
+    // In the last one the kernel has to grow, too: its base is 77 times as soft as the coating.
+    for seed in (0..count).chain((count <= 108).then_some(108)) {
         let random = &mut Dice::new(9100 + seed);
         let (one, compliance) = random_layer(random);
         let plain = Material::elastic(random.power_of_ten(-1.0, 1.0), 0.3);
