@@ -70,7 +70,7 @@ impl<T: Real> ExteriorField<T> {
     pub fn refine(&mut self, x: &[T], mut pressures: Vec<T>) {
         pressures.iter_mut().zip(x).for_each(|(p, &x)| *p *= self.on.chebyshev_weight(x));
         self.finer = coefficients(&pressures);
-        self.doubt = tail(&self.finer, self.free);
+        self.doubt = tail(&self.finer, self.free).max(peaked(&pressures));
     }
 
     /// Returns the coefficients q₀, q₁, ...
@@ -225,6 +225,15 @@ fn tail<T: Real>(q: &[T], free: Ends<bool>) -> T {
     let first = q.len() - q.len() / 4;
     let last = (first..q.len()).fold(zero, |sum, n| sum + q[n].abs() / T::count(n));
     T::of(4.0) * T::pi() * last + beside
+}
+
+/// Returns the potential that the values of a cosine series leave uncertain where one of them
+/// stands out: next to the logarithm at a kink, it stands for a pressure that its neighbours do not
+/// share, and is in all coefficients.
+fn peaked<T: Real>(values: &[T]) -> T {
+    let out = |near: &[T]| (near[1] - T::of(0.5) * (near[0] + near[2])).abs();
+    let most = values.windows(3).map(out).fold(T::zero(), T::max);
+    T::of(2.0) * T::pi() * most / T::count(values.len())
 }
 
 /// Returns the coefficients of a cosine series from its values, [`POINTS`] times a power of two.

@@ -24,7 +24,8 @@ use linecontact::profile::{Fit, Spline};
 use linecontact::reference::{ClosedForm, Quartic};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Flat, Interval, Material, Panels,
-    ParametricProfile, Piecewise, PlaneState, Reference, References, Solution, SolveError, Solver,
+    ParametricProfile, Piecewise, PlaneState, Real, Reference, References, Solution, SolveError,
+    Solver,
 };
 use std::f64::consts::{LN_2, PI};
 
@@ -51,11 +52,23 @@ struct Series {
 }
 
 impl Series {
-    fn new(on: Interval<f64>, solution: &Solution<f64>, load: f64, goal: f64) -> Self {
+    fn new<T: Real + Into<f64>>(
+        on: Interval<T>,
+        solution: &Solution<T>,
+        load: f64,
+        goal: f64,
+    ) -> Self {
         let pressure = solution.pressure().unwrap();
+        let on = Interval { left: on.left.into(), right: on.right.into() };
+        let fill = |x: &[f64], values: &mut [f64]| {
+            let x: Vec<T> = x.iter().map(|&x| T::of(x)).collect();
+            let mut found = vec![T::zero(); x.len()];
+            pressure.at_many(&x, &mut found).unwrap();
+            values.iter_mut().zip(found).for_each(|(value, found)| *value = found.into());
+        };
         let mut count = TERMS[0];
         loop {
-            let series = Self::of(on, count, &|x, p| pressure.at_many(x, p).unwrap());
+            let series = Self::of(on, count, &fill);
             let is_left = |share: f64| series.tail > share * load;
             if !is_left(if count >= TERMS[1] { goal.max(TAIL[1]) } else { goal })
                 || count == TERMS[2]
@@ -189,8 +202,8 @@ struct Judge<'h> {
 }
 
 impl<'h> Judge<'h> {
-    fn new(bodies: &'h Bodies<'h>, solution: &Solution<f64>, load: f64) -> Self {
-        let series = |on: &Interval<f64>| Series::new(*on, solution, load, bodies.tail);
+    fn new<T: Real + Into<f64>>(bodies: &'h Bodies<'h>, solution: &Solution<T>, load: f64) -> Self {
+        let series = |on: &Interval<T>| Series::new(*on, solution, load, bodies.tail);
         Self::of(bodies, solution.intervals().iter().map(series).collect(), load)
     }
 
@@ -313,8 +326,23 @@ fn lowest_between(mut from: f64, mut to: f64, f: &dyn Fn(f64) -> f64) -> [f64; 2
     if y[0] < y[1] { [x[0], y[0]] } else { [x[1], y[1]] }
 }
 
-fn judge(bodies: &Bodies<'_>, solution: &Solution<f64>, load: f64) -> Faults {
-    Judge::new(bodies, solution, load).faults()
+fn judge<T: Real + Into<f64>>(bodies: &Bodies<'_>, solution: &Solution<T>, load: f64) -> Faults {
+    let tilt: f64 = solution.tilt().into();
+    let height = |x: f64| (bodies.height)(x) + tilt * x;
+    let Bodies { kappa, places, tail, .. } = bodies;
+    let turned = Bodies { height: &height, kappa: *kappa, places: places.clone(), tail: *tail };
+    Judge::new(&turned, solution, load).faults()
+}
+
+/// Returns a control with a share of its load.
+fn lighter(control: Control<f64>, share: f64) -> Control<f64> {
+    match control {
+        Control::Load(load) => Control::Load(share * load),
+        Control::CentreOfPressure { load, at } => {
+            Control::CentreOfPressure { load: share * load, at }
+        }
+        other => panic!("{other:?}"),
+    }
 }
 
 /// Outcomes of scenes.
@@ -343,12 +371,12 @@ impl Tally {
         contact: &Contact<'_, f64>,
         wide: &dyn Fn() -> Result<Vec<Interval<f64>>, ContactError<f64>>,
         bodies: &Bodies<'_>,
-        load: f64,
+        control: Control<f64>,
         allowed: f64,
     ) {
         self.scenes += 1;
         let started = std::time::Instant::now();
-        let solved = contact.solve(Control::Load(load));
+        let solved = contact.solve(control);
         self.slowest = self.slowest.max(started.elapsed().as_secs_f64());
         let solution = match solved {
             Ok(solution) => solution,
@@ -371,8 +399,17 @@ impl Tally {
         let contacts = solution.intervals().len();
         self.contacts += contacts;
         self.most_contacts = self.most_contacts.max(contacts);
+        let load = solution.load();
         let faults = judge(bodies, &solution, load);
-        if faults.is_wrong(allowed) {
+        let is_aside = match control {
+            Control::Load(given) => load != given,
+            Control::CentreOfPressure { load: given, at } => {
+                let off = (solution.centre_of_pressure().unwrap() - at).abs();
+                load != given || off > 1e-6 * solution.hull().half_width()
+            }
+            other => panic!("{other:?}"),
+        };
+        if is_aside || faults.is_wrong(allowed) {
             self.wrong.push(format!("{name}: {contacts} contacts, {faults:?}"));
         } else {
             let found = [faults.load, faults.tension, faults.level, faults.overlap, faults.doubt];
@@ -380,8 +417,8 @@ impl Tally {
         }
         for share in [1.5, 0.6] {
             let mut solver = Solver::new();
-            let _ = solver.solve(contact, Control::Load(share * load));
-            match solver.solve(contact, Control::Load(load)) {
+            let _ = solver.solve(contact, lighter(control, share));
+            match solver.solve(contact, control) {
                 Ok(warm) => {
                     let apart = apart(solution.intervals(), warm.intervals());
                     if apart.is_nan() || apart > 1e-9 {
@@ -539,7 +576,14 @@ fn waves_touch_as_bodies_do() {
             kappa: scene.kappa,
             places: scene.places(12.0),
         };
-        tally.take(&format!("{seed} {scene:?}"), &contact, &wide, &bodies, load, WAVES);
+        tally.take(
+            &format!("{seed} {scene:?}"),
+            &contact,
+            &wide,
+            &bodies,
+            Control::Load(load),
+            WAVES,
+        );
     }
     tally.finish();
 }
@@ -573,6 +617,12 @@ fn waves_are_certified() {
 /// first scene passed although its tension is 84 % of the peak.
 #[test]
 fn no_wrong_answer_of_a_loose_tolerance_is_certified() {
+    let silent = [certified_though_wrong::<f64>(), certified_though_wrong::<f32>()];
+    assert!(silent.iter().all(Vec::is_empty), "{silent:#?}");
+}
+
+/// Lists the scenes whose solution in a number type is wrong and certified.
+fn certified_though_wrong<T: Real + Into<f64>>() -> Vec<String> {
     let (mut silent, mut wrong, mut certified) = (Vec::new(), 0, 0);
     for seed in scenes(100) {
         let dice = &mut Dice::new(seed);
@@ -583,12 +633,18 @@ fn no_wrong_answer_of_a_loose_tolerance_is_certified() {
             (tolerance, load) = (dice.power_of_ten(-6.0, -2.0), dice.power_of_ten(-2.5, -1.0));
         }
         let scene = Wavy { radius: 1.0, waves: vec![wave], load, kappa: 1.0 };
-        let (body, rule) = (scene.body(1.0), Panels { tolerance });
-        let contact = Contact::new(&Flat, &body).unwrap().quadrature(&rule).single_interval(true);
-        let Ok(solution) = contact.solve(Control::Load(load)) else { continue };
+        let wavy = scene.clone();
+        let body = Curve::new([-T::one(), T::one()], move |x: T| {
+            let [y, dy] = wavy.at(x.into()).map(T::of);
+            CurvePoint { x, y, dx: T::one(), dy }
+        });
+        let rule = Panels { tolerance };
+        let contact = Contact::new(&Flat, &body).unwrap().kappa(T::one()).quadrature(&rule);
+        let contact = contact.single_interval(true);
+        let Ok(solution) = contact.solve(Control::Load(T::of(load))) else { continue };
         let height = |x: f64| scene.at(x)[0];
-        let bodies =
-            Bodies { tail: TAIL[0], height: &height, kappa: 1.0, places: scene.places(12.0) };
+        let places = scene.places(12.0);
+        let bodies = Bodies { tail: 1e-6, height: &height, kappa: 1.0, places };
         let faults = judge(&bodies, &solution, load);
         let is_wrong = faults.tension > 0.02 || faults.overlap > 0.02;
         let is_certified = solution.certify().is_ok();
@@ -597,8 +653,9 @@ fn no_wrong_answer_of_a_loose_tolerance_is_certified() {
             silent.push(format!("{seed} {tolerance} {scene:?}: {faults:?}"));
         }
     }
-    println!("{wrong} wrong, {certified} certified, of which wrong: {silent:#?}");
-    assert!(wrong > 0 && certified > 0 && silent.is_empty());
+    println!("{wrong} wrong, {certified} certified, of which wrong: {}", silent.len());
+    assert!(wrong > 0 && certified > 0);
+    silent
 }
 
 /// Points measured on a parabola from -1 to 1.
@@ -735,9 +792,10 @@ fn rough_points_touch_as_bodies_do() {
         let height = |x: f64| body.at(x).y;
         let places = scene.places();
         let bodies = Bodies { tail: TAIL[0], height: &height, kappa: 1.0, places };
-        let wide = || Ok(contact.solve(Control::Load(scene.load))?.intervals().to_vec());
+        let load = Control::Load(scene.load);
+        let wide = || Ok(contact.solve(load)?.intervals().to_vec());
         let name = format!("{seed} {}", scene.name);
-        tally.take(&name, &contact, &wide, &bodies, scene.load, SPLINES);
+        tally.take(&name, &contact, &wide, &bodies, load, SPLINES);
     }
     tally.finish();
 }
@@ -770,6 +828,7 @@ fn measured_points_touch_as_bodies_do() {
         let fit = Fit { outliers: None, ..Fit::default() };
         let body = Spline::fitted(&scene.points, fit).unwrap();
         let contact = Contact::new(&Flat, &body).unwrap();
+        let load = Control::Load(scene.load);
         let wide = || {
             let ends = [scene.points[0], scene.points[scene.points.len() - 1]];
             let line = |[x, y]: [f64; 2], slope: f64, on: [f64; 2]| {
@@ -788,12 +847,12 @@ fn measured_points_touch_as_bodies_do() {
             ];
             let body = Piecewise::with_tolerance(parts, 1e-9).unwrap();
             let contact = Contact::new(&Flat, &body)?;
-            Ok(contact.solve(Control::Load(scene.load))?.intervals().to_vec())
+            Ok(contact.solve(load)?.intervals().to_vec())
         };
         let height = |x: f64| body.at(x).y;
         let bodies = Bodies { tail: TAIL[0], height: &height, kappa: 1.0, places: scene.places() };
         let name = format!("{seed} {}", scene.name);
-        tally.take(&name, &contact, &wide, &bodies, scene.load, SPLINES);
+        tally.take(&name, &contact, &wide, &bodies, load, SPLINES);
     }
     tally.finish();
 }
