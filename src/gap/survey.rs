@@ -26,6 +26,8 @@ mod pieces;
 mod probe;
 mod segment;
 mod series;
+#[cfg(test)]
+mod tests;
 
 use super::{Cost, Gap};
 use crate::{Body as Which, ContactError, InputError, Interval, ProfileError, Real};

@@ -221,7 +221,8 @@ fn presses_at<T: Real>(
     let pressed = strengths.into_iter().fold(mean, |max, strength| max.max(strength.abs()));
     // If both edges pull, the error names the right one.
     for side in [Side::Right, Side::Left] {
-        if at_corner[side] && strengths[side] < -found.zero_tolerance() * pressed {
+        let presses = strengths[side] >= -found.zero_tolerance() * pressed;
+        if at_corner[side] && !presses {
             let (x, pressure) = (interval[side], -T::one() / T::zero());
             return Err(SolveError::Tension { x, pressure, interval, load }.into());
         }
@@ -294,6 +295,22 @@ mod tests {
 
     const LOAD: f64 = 1.0;
 
+    fn state(interval: Interval<f64>, strengths: Ends<f64>, ends: Ends<f64>) -> ContactState<f64> {
+        ContactState {
+            interval,
+            load: LOAD,
+            strengths,
+            free: Ends::both(true),
+            adhesive: Ends::both(false),
+            error: Some(1e-14),
+            error_by_load: None,
+            load_error: None,
+            moment_derivatives: None,
+            tilt: 0.0,
+            ends,
+        }
+    }
+
     /// Certifies the solution for two contacts of `x⁴ - 2x²` less `height` times
     /// `exp(-((x - at)/width)²)`.
     fn certified([height, at, width]: [f64; 3]) -> Result<Certificate<f64>, ContactError<f64>> {
@@ -324,20 +341,21 @@ mod tests {
             }
         }
         assert!(steps.iter().all(|step| step.abs() < 1e-12), "{steps:?}");
-        let found = ContactState {
-            interval: Interval { left: limits[0], right: limits[3] },
-            load: LOAD,
-            strengths: Ends::both(0.0),
-            free: Ends::both(true),
-            adhesive: Ends::both(false),
-            error: Some(1e-14),
-            error_by_load: None,
-            load_error: None,
-            moment_derivatives: None,
-            tilt: 0.0,
-            ends,
-        };
+        let interval = Interval { left: limits[0], right: limits[3] };
+        let found = state(interval, Ends::both(0.0), ends);
         certify(Solved { gap: &gap, integrator: &*solver, kappa, found: &found })
+    }
+
+    /// A corner whose strength is unknown may pull.
+    #[test]
+    fn a_corner_of_unknown_strength_does_not_press() {
+        let (interval, ends) = (Interval { left: -0.2, right: 0.2 }, Ends::both(0.2));
+        let corners = Ends::both(true);
+        for (strength, presses) in [(1.0, true), (0.0, true), (-1.0, false), (f64::NAN, false)] {
+            let strengths = Ends { left: 1.0, right: strength };
+            let found = state(interval, strengths, ends);
+            assert_eq!(presses_at(&found, corners).is_ok(), presses, "{strength}");
+        }
     }
 
     /// Tests solutions of the equations that are not contacts of the bodies.

@@ -43,7 +43,7 @@ pub(super) struct Stretch<T> {
 
 /// Shape of the gap between two points, as far as it is known.
 #[derive(Clone, Copy, PartialEq)]
-enum Shape {
+pub(super) enum Shape {
     Convex,
     Open,
     Bent,
@@ -122,7 +122,12 @@ impl<T: Real> Survey<T> {
         gap.turned(x, before.height + share * (after.height - before.height))
     }
 
-    fn is_untouched_beyond(&mut self, gap: &Gap<'_, T>, on: Interval<T>, level: T) -> bool {
+    pub(super) fn is_untouched_beyond(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+        level: T,
+    ) -> bool {
         let holds = |stretch: &Stretch<T>| {
             let [first, last] = stretch.nodes;
             same(stretch.tilt, gap.tilt())
@@ -160,10 +165,15 @@ impl<T: Real> Survey<T> {
     /// Returns the approximate lowest gap between a point and the next; minus infinity where it is
     /// unknown.
     fn floor(&self, gap: &Gap<'_, T>, i: usize) -> T {
-        let least = |low: T, x: T, height: T| low.min(gap.turned(x, height));
+        // A NaN replaces the number before it; the lowest place has one if an end has.
+        let least = |low: T, x: T, height: T| {
+            let height = gap.turned(x, height);
+            if low < height { low } else { height }
+        };
         let [from, to] = [&self.nodes[i], &self.nodes[i + 1]];
         let ends = least(gap.turned(from.x, from.height), to.x, to.height);
-        let floor = self.low_between(i).map(|low| least(ends, low.x, low.height) - low.doubt);
+        let known = self.low_between(i).filter(|_| !from.is_open);
+        let floor = known.map(|low| least(ends, low.x, low.height) - low.doubt);
         floor.filter(|floor| floor.is_finite()).unwrap_or(-T::one() / T::zero())
     }
 
@@ -201,7 +211,7 @@ impl<T: Real> Survey<T> {
     }
 
     /// Returns the shape of the gap between a point and the next, as far as it is known.
-    fn shape_after(&self, i: usize) -> Shape {
+    pub(super) fn shape_after(&self, i: usize) -> Shape {
         let [node, next] = [&self.nodes[i], &self.nodes[i + 1]];
         let width = next.x - node.x;
         let (rise, doubt) = (next.slopes[0] - node.slopes[1], node.doubt() + next.doubt());
@@ -211,7 +221,10 @@ impl<T: Real> Survey<T> {
         if rise < -most || chord < node.slopes[1] - most || chord > next.slopes[0] + most {
             return Shape::Bent;
         }
-        let is_known = rise >= -rounding && doubt <= T::of(MAX_UNCERTAINTY) * rise.max(T::zero());
+        // An upright end tells nothing of what lies before it.
+        let is_known = rise >= -rounding
+            && rise.is_finite()
+            && doubt <= T::of(MAX_UNCERTAINTY) * rise.max(T::zero());
         if node.is_open || node.is_void || !is_known { Shape::Open } else { Shape::Convex }
     }
 }
@@ -241,7 +254,7 @@ pub(super) fn convex_stretches<T: Real>(nodes: &mut Vec<Node<T>>, rates: &mut Ve
     rates.extend(nodes.windows(2).map(|pair| rate(&pair[0], &pair[1])));
     for i in 0..rates.len() {
         let around = &rates[i.saturating_sub(IN_A_ROW)..(i + IN_A_ROW + 1).min(rates.len())];
-        if !nodes[i].is_void && around.iter().all(|rate| rate.is_finite()) {
+        if !nodes[i].is_void && !nodes[i].is_open && around.iter().all(|rate| rate.is_finite()) {
             let width = nodes[i + 1].x - nodes[i].x;
             let least = around.iter().fold(rates[i], |least, &rate| least.min(rate));
             nodes[i].after = nodes[i].after.min(T::of(0.5) * least * width * width);

@@ -145,7 +145,9 @@ impl<T: Real> Survey<T> {
                     from.doubt() + to.doubt() + (T::of(8.0) * from.after + cancelled) / width;
                 let allowed = from.chord_rounding(to) + doubt.min(most);
                 // Pieces that meet within rounding have no chord. A slope at an end may be NaN.
-                to.slopes[0] < from.slopes[1] - (from.rounding(to) + doubt.min(most))
+                from.is_open
+                    || from.is_void
+                    || to.slopes[0] < from.slopes[1] - (from.rounding(to) + doubt.min(most))
                     || chord < from.slopes[1] - allowed
                     || chord > to.slopes[0] + allowed
             })

@@ -111,7 +111,9 @@ impl<T: Real> Survey<T> {
         }
         let mut stretches = std::mem::take(&mut self.stretches);
         let found = self.resolve_stretches(gap, load, contacts, &mut stretches, cost);
-        (self.stretches, self.resolved) = (stretches, Some([T::of(LOAD_AHEAD) * load, gap.tilt()]));
+        self.stretches = stretches;
+        // A search that was broken off has seen nothing.
+        self.resolved = found.is_ok().then(|| [T::of(LOAD_AHEAD) * load, gap.tilt()]);
         found
     }
 

@@ -102,24 +102,26 @@ pub(super) fn moments<T: Real>(
     sums.moments(on)
 }
 
-/// Tells whether the slope rises over the contact, up to errors of size `allowed`, or those of the
-/// panels: by how much its derivative may be negative by its coefficients alone, and what jumps go
-/// down, counts once for all panels, as many small falls may be a wave.
+/// Tells whether the slope rises over the contact: by how much its derivative may be negative, by
+/// its coefficients and the errors of the panels, and what jumps go down, is no more than an error
+/// of size `allowed`. It counts once for all panels, as many small falls may be a wave.
 pub(crate) fn rise<T: Real>(panels: &[Panel<T>], on: Interval<T>, allowed: T) -> bool {
-    let (mut before, mut fall, mut most) = (None, T::zero(), allowed);
+    // What is no number counts as a fall.
+    let falls = |by: T| if by <= T::zero() { T::zero() } else { by };
+    let (mut before, mut fall, mut longest) = (None, T::zero(), 1);
     for panel in within(panels, on) {
         let mut series = [T::zero(); MAX_SIZE];
         series[..panel.length].copy_from_slice(panel.coefficients());
         let slopes = by_size!(size_for(panel.length), N => derivative::<N, T>(&series));
         let others = slopes[2..=panel.length].iter().fold(T::zero(), |sum, a| sum + a.abs());
         let [left, right] = panel.at_ends();
-        fall += (others - T::of(0.5) * slopes[1]).max(T::zero());
-        fall += before.map_or(T::zero(), |before: T| (before - left).max(T::zero()));
-        before = Some(right);
-        // Markov's inequality bounds the derivative of such an error.
-        most = most.max(panel.error.max(allowed) * T::count(panel.length));
+        // Markov's inequality bounds the derivative of an error.
+        let error = panel.error * T::count(panel.length);
+        fall += falls(others - T::of(0.5) * slopes[1] + error);
+        fall += before.map_or(T::zero(), |before: T| falls(before - left));
+        (before, longest) = (Some(right), longest.max(panel.length));
     }
-    fall <= most
+    fall <= allowed * T::count(longest)
 }
 
 /// Integrates over a contact on one panel: over half a turn every cosine vanishes.
@@ -278,5 +280,46 @@ fn jump<T: Real>(
         sums.slope[0] += impulse;
         sums.slope[1] += impulse * cosine;
         sums.slope[2] += impulse * cosine * cosine;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns panels of equal length over [-1, 1], each from one slope to another.
+    fn panels(slopes: &[[f64; 2]]) -> Vec<Panel<f64>> {
+        let width = 2.0 / slopes.len() as f64;
+        let of = |(i, &[left, right]): (usize, &[f64; 2])| {
+            let start = -1.0 + width * i as f64;
+            let mut panel = Panel { n: 8, ..Panel::new([start, start + width]) };
+            (panel.series[0], panel.series[1], panel.length) =
+                (0.5 * (left + right), 0.5 * (right - left), 2);
+            panel
+        };
+        slopes.iter().enumerate().map(of).collect()
+    }
+
+    /// A slope rises only where each panel, and each seam, is known to rise.
+    #[test]
+    fn a_slope_rises_only_where_it_is_known_to() {
+        let on = Interval { left: -0.9, right: 0.9 };
+        let rising = [[-1.0, -0.5], [-0.5, 0.0], [0.0, 0.7], [0.7, 1.0]];
+        let rises = |panels: &[Panel<f64>]| rise(panels, on, 1e-9);
+        assert!(rises(&panels(&rising)));
+        // A coefficient, or an error, that is unknown or too large.
+        for unknown in [f64::NAN, f64::INFINITY, 1.0] {
+            let mut all = panels(&rising);
+            (all[2].series[2], all[2].length) = (unknown, 3);
+            assert!(!rises(&all), "{unknown}");
+            let mut all = panels(&rising);
+            all[2].error = unknown;
+            assert!(!rises(&all), "error {unknown}");
+        }
+        // A jump down from one panel to the next.
+        assert!(!rises(&panels(&[[-1.0, 0.0], [-1e-6, 1.0]])));
+        // A tolerance counts once, not once a cell.
+        let falling: Vec<_> = (0..400).map(|i| [-2e-9 * f64::from(i); 2]).collect();
+        assert!(!rises(&panels(&falling)));
     }
 }

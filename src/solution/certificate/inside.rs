@@ -52,8 +52,11 @@ pub(super) struct Inside<'c, T: Real> {
 }
 
 impl<T: Real> Inside<'_, T> {
-    fn tension(&self, Extremum { x, value: pressure }: Extremum<T>) -> ContactError<T> {
-        let (interval, load) = (self.hull, self.load);
+    fn tension(&self, place: Extremum<T>, cost: Cost) -> ContactError<T> {
+        let (Extremum { x, value: pressure }, interval, load) = (place, self.hull, self.load);
+        if pressure.partial_cmp(&pressure).is_none() {
+            return undecided(x, cost);
+        }
         ContactError::Solve(SolveError::Tension { x, pressure, interval, load })
     }
 
@@ -76,14 +79,16 @@ impl<T: Real> Inside<'_, T> {
             }
         }
         match found.worst {
-            Some(place) => Err(self.tension(place)),
+            Some(place) => Err(self.tension(place, cost)),
             None => found.ratio.ok_or_else(|| undecided(on.centre(), cost)),
         }
     }
 
     /// Records a pressure that is a tension beyond `allowed`, if it is the deepest so far.
     fn meet(&self, found: &mut Found<T>, x: T, value: T) {
-        if value < -self.allowed {
+        // NaN counts as tension.
+        let presses = value >= -self.allowed;
+        if !presses {
             found.worst = nearer(Some(Extremum { x, value }), found.worst);
         }
     }
@@ -95,7 +100,7 @@ impl<T: Real> Inside<'_, T> {
             found.cells += 1;
             if found.cells > MAX_CELLS {
                 // One place with tension is enough.
-                let tension = found.worst.map(|place| self.tension(place));
+                let tension = found.worst.map(|place| self.tension(place, cost));
                 return Err(tension.unwrap_or_else(|| undecided(from, cost)));
             }
             let middle = T::of(0.5) * from + T::of(0.5) * to;
@@ -160,6 +165,48 @@ impl<T: Real> Inside<'_, T> {
             self.meet(found, x[best], pressure[best]);
             from = if best == 0 { from } else { x[best - 1] };
             to = x.get(best + 1).copied().unwrap_or(to);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gap::Shape;
+    use crate::profile::{Curve, CurvePoint, Flat, Piecewise};
+    use crate::search::Newton as Inversion;
+
+    /// Pressures that are no numbers prove nothing, next to a joint or further.
+    #[test]
+    fn a_pressure_that_is_unknown_decides_nothing() {
+        let piece = |ends: [f64; 2]| {
+            Curve::new(ends, |k: f64| CurvePoint { x: k, y: 0.5 * k * k, dx: 1.0, dy: k })
+        };
+        let body = Piecewise::new(vec![piece([-1.0, 0.1]), piece([0.1, 1.0])]).unwrap();
+        let inversion = Inversion::default();
+        let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(&body), &inversion).unwrap();
+        let on = Interval { left: -0.2, right: 0.2 };
+        for hidden in [0.0, 1e-12, 0.1] {
+            let pressures = |x: &[f64], pressures: &mut [f64]| {
+                for (pressure, x) in pressures.iter_mut().zip(x) {
+                    let is_hidden = (x - 0.1).abs() < hidden;
+                    *pressure = if is_hidden { f64::NAN } else { on.chebyshev_weight(*x) };
+                }
+            };
+            let free = Ends::both(true);
+            let inside = Inside {
+                pressures: &pressures,
+                gap: &gap,
+                on,
+                free,
+                load: 1.0,
+                hull: on,
+                allowed: 1e-9,
+            };
+            let found = inside.least(Cost::default());
+            let is_open =
+                matches!(found, Err(ContactError::Solve(crate::SolveError::Undecided { .. })));
+            assert_eq!(is_open, hidden > 0.0, "{hidden}: {found:?}");
         }
     }
 }

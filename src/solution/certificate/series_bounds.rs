@@ -66,6 +66,8 @@ pub(super) fn integral<T: Real>(series: &[T]) -> Vec<T> {
 /// Estimates the truncation error from the last coefficients.
 pub(super) fn truncation_error<T: Real>(series: &[T]) -> T {
     let n = series.len();
-    let last = series[n - 4..].iter().fold(T::zero(), |max, a| max.max(a.abs()));
+    // NaN in one value is in all coefficients, and resolves nothing.
+    let last =
+        series[n - 4..].iter().fold(T::zero(), |max, a| if max > a.abs() { max } else { a.abs() });
     last * T::count(n)
 }

@@ -1,5 +1,6 @@
-//! Rollers, teeth and ridges of one size side by side, on a plane: all of them bear the load. Joined
-//! pieces meet within rounding or further off, and crests are equal to the last bit or nearly.
+//! Rollers, teeth and ridges of one size side by side, on a plane: all of them bear the load.
+//! Joined pieces meet within rounding or further off, and crests are equal to the last bit or
+//! nearly.
 
 use super::{Bodies, Dice, SPLINES, TAIL, Tally, WAVES, scenes};
 use crate::boundary_elements::height;
@@ -225,7 +226,8 @@ impl Row {
 #[test]
 fn equal_crests_share_the_load() {
     let mut tally = Tally::default();
-    for seed in scenes(100) {
+    // By number: a place of the series of the pressure next to a crest.
+    for seed in scenes(100).chain([394, 3413]) {
         let row = Row::new(&mut Dice::new(seed));
         let [lower, upper] = row.bodies();
         let contact = Contact::new(&*lower, &*upper).unwrap();
@@ -298,8 +300,8 @@ fn two_equal_ridges_bear_half_each() {
         for one in &contacts {
             assert!((one.load / (0.5 * load) - 1.0).abs() < 1e-7, "{load}: {}", one.load);
         }
-        // A wedge, less the slope that the other one leaves: an angle φ of the wall bears as much as
-        // the rest, and F = (κ L/π) (1 + m) sin φ.
+        // A wedge, less the slope that the other one leaves: an angle φ of the wall bears as much
+        // as the rest, and F = (κ L/π) (1 + m) sin φ.
         let half = 0.5 * load / (0.5 * PI * 1e5);
         let slope = 0.005 - 0.5 * half;
         let wide = 2.0 * PI * half / ((1.0 + slope) * (PI * slope / (1.0 + slope)).sin());

@@ -7,6 +7,7 @@ use crate::common::NanSafe;
 use approx::assert_relative_eq;
 use common::{Counting, graph, on_flat, paper, power, scenes};
 use linecontact::profile::Ellipse;
+use linecontact::search::{Bisection, StoppingCriteria};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval, Midpoint,
     ParametricProfile, Solution, SolveError, Solver, Start,
@@ -464,4 +465,26 @@ fn a_search_that_is_made_again_is_the_one_from_scratch() {
     assert_eq!(warm.report(), cold.report());
     assert_eq!(warm.intervals(), cold.intervals());
     assert!(warm.cost().evaluations > cold.cost().evaluations);
+}
+
+/// A solution that a search has left rough may overlap a little, and passes; no other load takes
+/// from it that the bodies do not touch there.
+#[test]
+fn a_rough_solution_says_nothing_about_other_loads() {
+    // A crest away from the contact, pressed a little.
+    let body = Curve::new([-1.0, 1.0], |k: f64| {
+        let s = (k - 0.6) / 0.01;
+        let crest = 0.134512 * (-0.5 * s * s).exp();
+        CurvePoint { x: k, y: 0.5 * k * k - crest, dx: 1.0, dy: k + crest * s / 0.01 }
+    });
+    let contact = Contact::new(&Flat, &body).unwrap();
+    assert_eq!(contact.solve(Control::Load(0.0199)).unwrap().intervals().len(), 2);
+    for relative in [1e-3, 1e-2, 0.1] {
+        let search = Bisection { tolerance: StoppingCriteria::relative(relative) };
+        let mut solver = Solver::new();
+        let rough = contact.clone().limit_search(&search);
+        assert_eq!(solver.solve(&rough, Control::Load(0.02)).unwrap().intervals().len(), 1);
+        let next = solver.solve(&contact, Control::Load(0.0199)).unwrap();
+        assert_eq!(next.intervals().len(), 2, "{relative}");
+    }
 }
