@@ -1,6 +1,7 @@
 //! The width of the narrowest feature of a body that is seen.
 
-use super::Gap;
+use super::{Gap, MAX_EVALUATIONS, Surface};
+use crate::profile::Convexity;
 use crate::real::is_finite;
 use crate::{ContactError, InputError, Real};
 use num_traits::ToPrimitive;
@@ -28,11 +29,16 @@ impl<T: Real> Gap<'_, T> {
         self.resolution
     }
 
+    /// Returns the distance of points that show features of the requested length anywhere.
+    pub(crate) fn asked_spacing(&self) -> Option<T> {
+        self.resolution.map(|length| T::of(POINT_SPACING) * length)
+    }
+
     /// Returns the distance of points that show features in or next to a contact, given the default
     /// distance in widths of the narrowest feature.
     pub(crate) fn spacing(&self, half_width: T, widths: f64) -> T {
         let by_default = T::of(2.0 * widths * NARROWEST) * half_width;
-        self.resolution.map_or(by_default, |length| by_default.min(T::of(POINT_SPACING) * length))
+        self.asked_spacing().map_or(by_default, |asked| by_default.min(asked))
     }
 
     /// Returns the number of parts of a length that are no longer than a distance: at most `most`
@@ -44,12 +50,19 @@ impl<T: Real> Gap<'_, T> {
         if self.resolution.is_some() { parts } else { parts.min(most) }
     }
 
-    /// Checks the resolution against the rounding at an abscissa.
+    /// Checks the resolution against the rounding at an abscissa, and against the number of points
+    /// that all of the bodies need.
     ///
     /// # Errors
     /// [`InputError::InvalidResolution`].
     pub(crate) fn check_resolution(&self, x: T) -> Result<(), ContactError<T>> {
-        let least = T::of(LEAST_RESOLUTION) * T::epsilon() * x.abs();
+        let is_curved =
+            |body: &&Surface<'_, T>| body.shape.profile().convexity() != Convexity::Straight;
+        let curved = self.bodies.iter().filter(is_curved).count();
+        let length = T::count(curved) * (self.range[1] - self.range[0]);
+        let by_budget = length / (T::of(POINT_SPACING) * T::count(MAX_EVALUATIONS));
+        let rounding = T::of(LEAST_RESOLUTION) * T::epsilon() * x.abs();
+        let least = if curved > 0 { rounding.max(by_budget) } else { rounding };
         match self.resolution {
             Some(resolution) if !(resolution > least && is_finite(resolution)) => {
                 Err(InputError::InvalidResolution { resolution, least }.into())
