@@ -3,7 +3,7 @@
 use crate::random_scenes::Dice;
 use linecontact::{
     Contact, ContactError, Control, Convexity, Curve, CurvePoint, Flat, InputError,
-    ParametricProfile, SolveError, Solver,
+    ParametricProfile, Solver,
 };
 
 /// Returns the gap outside Hertz's contact under load, over the square of the half-width, at ξ
@@ -29,9 +29,11 @@ fn compact(s: f64) -> [f64; 2] {
     [rest.powi(3), -24.0 * s * rest * rest]
 }
 
-/// Returns a parabola of radius 1 on [-1, 1] with a bump.
-fn burred(bump: Bump, place: f64, width: f64, height: f64) -> impl ParametricProfile<f64> {
-    Curve::new([-1.0, 1.0], move |k: f64| {
+/// Returns a parabola of radius 1 with a bump, as long as points for a contact of a half-width may
+/// go.
+fn burred(bump: Bump, [place, width, height]: [f64; 3], half: f64) -> impl ParametricProfile<f64> {
+    let reach = (30.0 * half).min(1.0);
+    Curve::new([-reach, reach], move |k: f64| {
         let [y, dy] = bump((k - place) / width);
         CurvePoint { x: k, y: 0.5 * k * k - height * y, dx: 1.0, dy: k - height / width * dy }
     })
@@ -43,12 +45,12 @@ fn seen_beside(share: f64, bump: Bump, scenes: u64) -> [usize; 2] {
     for seed in 0..scenes {
         let mut dice = Dice::new(seed);
         let half = dice.power_of_ten(-3.0, -0.4);
-        let reach = (1.0 + (2.0 / half).ln()).sqrt();
+        let reach = (1.0 + (2.0 * (30.0 * half).min(1.0) / half).ln()).sqrt();
         let xi = dice.within(1.01, reach);
         let place = if dice.uniform() < 0.5 { -xi * half } else { xi * half };
         let height = half * half * hertz_gap(xi) * dice.within(1.5, 3.0);
         let width = share * 2.0 * half;
-        let body = burred(bump, place, width, height);
+        let body = burred(bump, [place, width, height], half);
         let load = Control::Load(0.5 * half * half);
         let contact = Contact::new(&Flat, &body).unwrap();
         price[1] += contact.solve(load).map_or(0, |solution| solution.cost().heights);
@@ -73,7 +75,7 @@ fn seen_inside(share: f64, bump: Bump, scenes: u64) -> usize {
         let xi = if seed == 0 { 0.0 } else { dice.within(-0.99, 0.99) };
         let height = half * width * dice.power_of_ten(-2.0, -1.0);
         let height = if dice.uniform() < 0.5 { -height } else { height };
-        let body = burred(bump, xi * half, width, height);
+        let body = burred(bump, [xi * half, width, height], half);
         let load = Control::Load(0.5 * half * half);
         let contact = Contact::new(&Flat, &body).unwrap().resolution(width);
         let scene = format!("{seed}: {width:e} in {half:e} at {xi}");
@@ -109,12 +111,12 @@ fn burrs_as_narrow_as_asked_for_are_seen() {
 /// A tenth, a hundredth and a thousandth of the contact of a smooth parabola, after the default.
 #[test]
 fn evaluations_are_those_kept() {
-    let body = burred(bell, 0.0, 1.0, 0.0);
+    let body = burred(bell, [0.0, 1.0, 0.0], 1.0);
     let contact = Contact::new(&Flat, &body).unwrap();
     let heights =
         |contact: &Contact<'_, f64>| contact.solve(Control::Load(0.02)).unwrap().cost().heights;
     let kept = [4e-2, 4e-3, 4e-4].map(|length| heights(&contact.clone().resolution(length)));
-    assert_eq!([heights(&contact), kept[0], kept[1], kept[2]], [26, 82, 794, 7849]);
+    assert_eq!([heights(&contact), kept[0], kept[1], kept[2]], [26, 188, 1836, 18225]);
 }
 
 /// After a solve at a coarser resolution, a solver samples again.
@@ -123,7 +125,7 @@ fn a_warm_solver_looks_again() {
     let (half, share) = (0.2, 0.002);
     let width = share * 2.0 * half;
     for (place, height) in [(0.25, 0.02), (0.0713, 0.05 * half * width)] {
-        let body = burred(compact, place, width, height);
+        let body = burred(compact, [place, width, height], 1.0);
         let contact = Contact::new(&Flat, &body).unwrap();
         let load = Control::Load(0.5 * half * half);
         let cold = contact.clone().resolution(width).solve(load).unwrap();
@@ -161,7 +163,7 @@ fn declared_bodies_are_looked_at() {
 
 #[test]
 fn lengths_that_are_none_are_refused() {
-    let body = burred(bell, 0.0, 1.0, 0.0);
+    let body = burred(bell, [0.0, 1.0, 0.0], 1.0);
     let contact = Contact::new(&Flat, &body).unwrap();
     for length in [0.0, -1e-3, f64::NAN, f64::INFINITY, 1e-17] {
         let found = contact.clone().resolution(length).solve(Control::Load(0.02));
@@ -172,7 +174,32 @@ fn lengths_that_are_none_are_refused() {
         assert_eq!(resolution.to_bits(), length.to_bits());
         assert!(!(length > least && length < f64::INFINITY), "{error}");
     }
-    // More points than the budget allows.
-    let error = contact.resolution(1e-9).solve(Control::Load(0.02)).map(|_| ()).unwrap_err();
-    assert!(matches!(error, ContactError::Solve(SolveError::BudgetSpent { .. })), "{error}");
+    // More points than the budget allows, on bodies of 2 or of a few millionths.
+    let error = contact.clone().resolution(1e-9).solve(Control::Load(0.02)).map(|_| ());
+    let Err(ContactError::Input(InputError::InvalidResolution { least, .. })) = error else {
+        panic!("{error:?}")
+    };
+    assert!(least > 6e-6 && least < 7e-6, "{least}");
+    contact.resolution(1.001 * least).solve(Control::Load(0.02)).unwrap();
+}
+
+/// An asperity 1.4 half-widths beside the contact, where the load alone does not reach: 0.13 deep
+/// in the other body.
+#[test]
+fn an_asperity_far_from_the_contact_is_seen_on_request() {
+    let lower = Curve::new([-6.0, 6.0], |k: f64| {
+        let bump = 17.0 / 8.0 * (-1024.0 * (k + 2.5).powi(2)).exp();
+        let dy = -2048.0 * (k + 2.5) * bump - 0.5 * k;
+        CurvePoint { x: k, y: bump - 0.25 * k * k, dx: 1.0, dy }
+    });
+    let upper = Curve::new([-6.0, 6.0], |k: f64| CurvePoint {
+        x: k,
+        y: 0.25 * k * k,
+        dx: 1.0,
+        dy: 0.5 * k,
+    });
+    let contact = Contact::new(&lower, &upper).unwrap().resolution(0.05);
+    let solution = contact.solve(Control::Load(0.5570423)).unwrap();
+    assert!(solution.intervals().len() == 2 && solution.intervals()[0].contains(-2.5));
+    solution.certify().unwrap();
 }

@@ -284,30 +284,7 @@ impl<T: Real> Survey<T> {
         let lowest = heights.fold(T::one() / T::zero(), |least: T, height| least.min(height));
         let ratio = (self.range[1] - self.range[0]) / hull;
         let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
-        let asked = gap.asked_spacing();
-        // Closer to the contacts than a user asks for.
-        let near = |narrow: T| {
-            let apart = gap.spacing(narrow, PROBE_SPACING);
-            Some(apart).filter(|&apart| asked.is_none_or(|asked| apart < asked))
-        };
-        self.add_stretches(gap, contacts, level, near, found);
-        let Some(asked) = asked else { return spread(found) };
-        self.add_stretches(gap, contacts, T::one() / T::zero(), |_| Some(asked), found);
-    }
-
-    /// Adds the spans between points and contacts where the gap may be below a level, if points are
-    /// further apart than required next to a contact of a half-width.
-    fn add_stretches(
-        &self,
-        gap: &Gap<'_, T>,
-        contacts: &[Interval<T>],
-        level: T,
-        required: impl Fn(T) -> Option<T>,
-        found: &mut Vec<Stretch<T>>,
-    ) {
-        let hull = T::of(0.5) * (contacts[contacts.len() - 1].right - contacts[0].left);
-        // A point of one body need not be a point of the other.
-        let (is_everywhere, mut next) = (!level.is_finite(), 0);
+        let (asked, mut next) = (gap.asked_spacing(), 0);
         for pair in self.nodes.windows(2) {
             let [mut from, to] = [pair[0].x, pair[1].x];
             while from < to {
@@ -318,22 +295,30 @@ impl<T: Real> Survey<T> {
                 let end = on.map_or(to, |on| to.min(on.left));
                 let beside = contacts[next.saturating_sub(1)..].iter().take(2);
                 let narrow = beside.fold(hull, |least, on| least.min(on.half_width()));
+                let near = gap.spacing(narrow, PROBE_SPACING);
                 // A limit of a contact is not a point.
                 let is_beside = from > pair[0].x || end < to;
                 let share = if is_beside { T::of(0.5) } else { T::one() };
-                if let Some(apart) = required(narrow)
-                    && (is_everywhere && end > from || end - from > share * apart)
-                    && let Some(x) = within(gap, pair, [from, end], level + pair[0].after)
-                    && (is_everywhere || x[1] - x[0] > share * apart)
-                {
+                let is_wide = |[from, to]: [T; 2], apart: T| to - from > share * apart;
+                let reached = Some([from, end]).filter(|&x| asked.is_some() || is_wide(x, near));
+                let reached = reached.and_then(|x| within(gap, pair, x, level + pair[0].after));
+                let x = reached.unwrap_or([end; 2]);
+                let parts = [([from, x[0]], asked), (x, Some(near)), ([x[1], end], asked)];
+                for (x, apart) in parts {
+                    // A point of one body need not be a point of the other.
+                    let is_due = |&apart: &T| is_wide(x, apart) || asked.is_some() && x[1] > x[0];
+                    let Some(apart) = apart.filter(is_due) else { continue };
                     // A void panel must be refined first.
                     let is_missed = !pair[0].after.is_finite();
                     let next = Stretch { x, apart, is_missed };
                     // A long stretch gets points of its own; short ones are merged.
-                    if x[1] - x[0] > share * apart { found.push(next) } else { add(found, next) }
+                    if is_wide(x, apart) { found.push(next) } else { add(found, next) }
                 }
                 from = on.map_or(to, |on| end.max(on.right));
             }
+        }
+        if asked.is_none() {
+            spread(found);
         }
     }
 

@@ -109,6 +109,24 @@ impl Scene {
         Self { map, ends, feature, load: 0.5 * half * half }
     }
 
+    /// Returns a scene whose feature lies anywhere on the body, wider than 2 % of the contact or
+    /// narrower.
+    fn anywhere(dice: &mut Dice) -> Self {
+        let scene = Self::new(dice, false);
+        let half = (2.0 * scene.load).sqrt();
+        let at = dice.within(-0.85, 0.9);
+        let xi = at.abs() / half;
+        // What the load takes of the height of the body.
+        let taken = if xi > 1.0 { half * half * (0.5 * xi * xi - hertz_gap(xi)) } else { 0.0 };
+        let above = (scene.map.y(at)[0] - taken) * dice.within(1.0, 1.2);
+        let above = if xi > 1.0 { above } else { 0.0 };
+        // No needle: flanks of slope 30.
+        let width = (2.0 * half * dice.power_of_ten(-2.5, -0.5)).max(0.03 * above);
+        let depth = half.min(10.0 * width) * width * dice.power_of_ten(-2.0, 0.0);
+        let feature = Feature { at, width, height: above + depth, ..scene.feature };
+        Self { feature, ..scene }
+    }
+
     fn height(&self, x: f64) -> f64 {
         self.map.y(x)[0] - self.feature.y(x)[0]
     }
@@ -190,8 +208,19 @@ fn no_narrow_feature_in_or_beside_a_contact_is_missed() {
     let random = scenes(0).map(scene);
     let known = known_scenes().into_iter().enumerate();
     let known = known.map(|(i, scene)| (format!("known {i}"), scene));
+    none_is_missed(known.chain(random), false);
+}
+
+/// Nor is one anywhere on the bodies, if its length is asked for.
+#[test]
+fn no_feature_anywhere_is_missed_at_its_resolution() {
+    let scene = |seed| (format!("{seed}"), Scene::anywhere(&mut Dice::new(seed)));
+    none_is_missed(scenes(100).map(scene), true);
+}
+
+fn none_is_missed(scenes: impl Iterator<Item = (String, Scene)>, is_asked: bool) {
     let (mut felt, mut unlike, mut wrong, mut refused) = (0, [0; 2], Vec::new(), Vec::new());
-    for (name, scene) in known.chain(random) {
+    for (name, scene) in scenes {
         let load = Control::Load(scene.load);
         let [body, declared] = [&[][..], &[-3.0, -1.3, -0.5, 0.0, 0.5, 1.3, 3.0]];
         let [body, declared] = [body, declared].map(|cuts| scene.body(cuts));
@@ -205,7 +234,9 @@ fn no_narrow_feature_in_or_beside_a_contact_is_missed() {
             continue;
         }
         felt += 1;
-        let found = match Contact::new(&Flat, &*body).unwrap().solve(load) {
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        let contact = if is_asked { contact.resolution(scene.feature.width) } else { contact };
+        let found = match contact.solve(load) {
             Ok(found) => found,
             Err(error) => {
                 refused.push(format!("{name}: {error}, {scene:?}"));
