@@ -297,13 +297,14 @@ impl<'b, T: Real> Contact<'b, T> {
     /// By default the solve sees Gaussian bumps and dents whose width at half their height is at
     /// least 2 % of the contact, provided that they change the peak pressure by 1 %; outside the
     /// contacts it samples at most 1024 points for one load. With a resolution, samples are less
-    /// than half the resolution apart, and no further apart than by default, in the contacts and
-    /// outside them as far as the load reaches. So at least two of them lie in a feature of that
+    /// than half the resolution apart all over the bodies, and no further apart than by default in
+    /// the contacts and as far as the load reaches. So at least two of them lie in a feature of that
     /// length. In a contact a feature is seen if it changes the slope at one of them by more than
     /// the uncertainty of the samples; outside, if it changes the height by 1e-7 F/κ or more.
     ///
-    /// The number of evaluations is proportional to the reach of the load over the resolution
-    /// ([`Cost::heights`]), within the budget of [`SolveError::BudgetSpent`]. The sampling does
+    /// The number of evaluations is proportional to the length of the bodies over the resolution
+    /// ([`Cost::heights`]). Of bodies that would take more than a million,
+    /// [`InputError::InvalidResolution`] says the length that they can have. The sampling does
     /// not depend on the declared [convexity](crate::Convexity), except on pieces that are
     /// [`Straight`](crate::Convexity::Straight). The resolution does not apply with
     /// [`single_interval`](Self::single_interval), which checks nothing, nor in contacts with other

@@ -168,8 +168,8 @@ pub enum InputError<T: Real> {
         /// The tolerance as given.
         tolerance: T,
     },
-    /// The [resolution](crate::Contact::resolution) is not a length, or is lost in the rounding of
-    /// x.
+    /// The [resolution](crate::Contact::resolution) is not a length, is lost in the rounding of x,
+    /// or takes too many points on bodies as long as these.
     #[error(
         "the resolution is {resolution}: the narrowest feature to be seen is a length along x, finite and more than {least}",
         resolution = six(*resolution), least = six(*least)
@@ -177,8 +177,7 @@ pub enum InputError<T: Real> {
     InvalidResolution {
         /// The resolution as given: a length.
         resolution: T,
-        /// Least length that the rounding of x in the contact allows; zero where no contact was
-        /// found yet.
+        /// Least length that the bodies, and the rounding of x in a contact that was found, allow.
         least: T,
     },
     /// A work of adhesion is negative or not finite.

@@ -518,8 +518,8 @@ class Contact(Unchanging):
         Short form of `quadrature=Panels(tolerance)`.
     resolution : float, optional
         Narrowest feature of the bodies to be seen: the length along x of a bump or a dent from end
-        to end. Samples are then less than half of it apart, in the contacts and outside them as far
-        as the load reaches, whatever convexity the bodies declare. It does not apply with
+        to end. Samples are then less than half of it apart all over the bodies, whatever convexity
+        they declare; bodies too long for that are refused. It does not apply with
         `single_interval`. By default Gaussian bumps are seen whose width at half their height is at
         least 2 % of the contact.
     certified : bool

@@ -387,15 +387,15 @@ class InvalidToleranceError(InputError):
 
 
 class InvalidResolutionError(InputError):
-    """The resolution is not a length, or is lost in the rounding of x.
+    """The resolution is not a length, is lost in the rounding of x, or takes too many points on
+    bodies as long as these.
 
     Attributes
     ----------
     resolution : float
         The resolution as given: a length.
     least : float
-        Least length that the rounding of x in the contact allows; zero where no contact was found
-        yet.
+        Least length that the bodies, and the rounding of x in a contact that was found, allow.
     """
 
     resolution: float
