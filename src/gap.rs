@@ -141,6 +141,18 @@ impl<'b, T: Real> Surface<'b, T> {
         low
     }
 
+    /// Returns the pieces on both sides of a breakpoint.
+    fn pieces_at(&self, x: T) -> Option<[Piece<'_, T>; 2]> {
+        let (index, last) = (self.index_at(x, Side::Left), self.len() - 1);
+        let left = self.piece(index);
+        if index == last || left.ends[1].x > x {
+            return None;
+        }
+        let mut after = (index + 1..last).map(|i| self.piece(i));
+        let right = after.find(|piece| piece.ends[1].x > x);
+        Some([left, right.unwrap_or(self.piece(last))])
+    }
+
     /// Returns the first breakpoint to the right of `x`.
     fn breakpoint_after(&self, x: T) -> Option<T> {
         self.joined?;
@@ -353,9 +365,7 @@ impl<'b, T: Real> Gap<'b, T> {
 
     /// Tells whether either profile passes from one piece to the next at `x`.
     pub(crate) fn is_breakpoint(&self, x: T) -> bool {
-        [Body::Lower, Body::Upper].into_iter().any(|body| {
-            self.piece_at(body, x, Side::Left).0 != self.piece_at(body, x, Side::Right).0
-        })
+        self.bodies.iter().any(|body| body.pieces_at(x).is_some())
     }
 
     /// Returns the breakpoints strictly inside an interval, rising.
@@ -387,9 +397,7 @@ impl<'b, T: Real> Gap<'b, T> {
     pub(crate) fn jump(&self, breakpoint: T) -> [T; 2] {
         let [mut jump, mut size] = [T::zero(); 2];
         for (body, sign) in [(Body::Lower, -T::one()), (Body::Upper, T::one())] {
-            let (i, left) = self.piece_at(body, breakpoint, Side::Left);
-            let (j, right) = self.piece_at(body, breakpoint, Side::Right);
-            if i != j {
+            if let Some([left, right]) = self.bodies[body as usize].pieces_at(breakpoint) {
                 let [left, right] =
                     [(left, 1), (right, 0)].map(|(piece, end)| piece.end_slope(end, &mut 0));
                 jump += sign * (right - left);

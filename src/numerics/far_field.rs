@@ -148,13 +148,14 @@ impl<T: Real> FarField<T> {
         let (half, mut series) = (places.half_width(), [T::zero(); MAX_SIZE]);
         by_size!(terms, N => {
             let table = Table::of(N);
-            let values: [T; N] = std::array::from_fn(|j| {
-                let x = places.left + half * T::of(1.0 + table.z[j]);
-                let far = (above.near.start..near.start).chain(near.end..above.near.end);
-                far.fold(above.values([x], self.combine.nothing())[0], |all, i| {
-                    self.combine.of(all, contribution(i, x))
-                })
-            });
+            let x: [T; N] =
+                std::array::from_fn(|j| places.left + half * T::of(1.0 + table.z[j]));
+            let mut values = above.values(x, self.combine.nothing());
+            for i in (above.near.start..near.start).chain(near.end..above.near.end) {
+                for (value, &x) in values.iter_mut().zip(&x) {
+                    *value = self.combine.of(*value, contribution(i, x));
+                }
+            }
             series[..N].copy_from_slice(&table.coefficients(&values));
         });
         Node { near, places, series, terms }

@@ -61,7 +61,7 @@ impl<T: Real> ExteriorField<T> {
     ) -> Self {
         let bounded: [T; POINTS] =
             std::array::from_fn(|i| pressures[i] * on.chebyshev_weight(x[i]));
-        let q = std::array::from_fn(|n| coefficient(n, &bounded));
+        let q = std::array::from_fn(|n| coefficient(n, &bounded, &COSINES));
         let doubt = tail(&q, free);
         Self { on, pressures: *pressures, q, finer: Vec::new(), free, doubt }
     }
@@ -242,7 +242,7 @@ fn peaked<T: Real>(values: &[T]) -> T {
 fn coefficients<T: Real>(values: &[T]) -> Vec<T> {
     let count = values.len();
     if count == POINTS {
-        return (0..count).map(|n| coefficient(n, values)).collect();
+        return (0..count).map(|n| coefficient(n, values, &COSINES)).collect();
     }
     let pairs = || values[..count / 2].iter().zip(values.iter().rev());
     let twice = |i: usize| T::of(2.0 * (PI * (i as f64 + 0.5) / count as f64).cos());
@@ -258,10 +258,10 @@ fn coefficients<T: Real>(values: &[T]) -> Vec<T> {
 }
 
 /// Returns coefficient n of a cosine series from [`POINTS`] values.
-fn coefficient<T: Real>(n: usize, values: &[T]) -> T {
+fn coefficient<T: Real>(n: usize, values: &[T], cosines: &[f64; 4 * POINTS]) -> T {
     let (mut sum, mut angle) = (T::zero(), n);
     for &value in values {
-        sum += value * T::of(COSINES[angle]);
+        sum += value * T::of(cosines[angle]);
         angle = (angle + 2 * n) & (4 * POINTS - 1);
     }
     sum /= T::count(POINTS);

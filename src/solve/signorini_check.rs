@@ -161,8 +161,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let (mut is_beside, mut unseen) = (false, T::zero());
         for (corner, side) in corners.into_iter().zip(Side::BOTH) {
             let Some(corner) = corner else { continue };
-            let (away, [jump, size]) = ((corner - on[side]).abs(), self.gap.jump(corner));
-            if away > T::of(BESIDE) * on.half_width() || jump <= T::epsilon().sqrt() * size {
+            let away = (corner - on[side]).abs();
+            if away > T::of(BESIDE) * on.half_width() {
+                continue;
+            }
+            let [jump, size] = self.gap.jump(corner);
+            if jump <= T::epsilon().sqrt() * size {
                 continue;
             }
             is_beside = true;

@@ -126,12 +126,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let (x, outward) = (on[side], outward::<T>(side));
         let around = Interval { left: (x - near).max(range[0]), right: (x + near).min(range[1]) };
         let inside = on[side.other()];
-        let corners = self.contact.gap.breakpoints(around);
-        let mut corners: Vec<T> = corners.filter(|&z| outward * (z - inside) > T::zero()).collect();
-        if side == Side::Left {
-            corners.reverse();
-        }
-        for z in corners {
+        let mut corners = self.breakpoints(around, side);
+        corners.retain(|&z| outward * (z - inside) > T::zero());
+        for (i, &z) in corners.iter().enumerate() {
             let corner = self.corner(z, side)?;
             if outward * (z - x) > T::zero() {
                 // Beyond a hollow corner the limit does not get.
@@ -140,11 +137,20 @@ impl<T: Real> Search<'_, '_, '_, T> {
                     break;
                 }
             }
-            if self.is_sharp(&corner, mean, on.half_width())? {
+            if self.is_sharp(&corner, &corners[i + 1..], mean, on.half_width())? {
                 return Ok(Some(z));
             }
         }
         Ok(None)
+    }
+
+    /// Lists the breakpoints in an interval, the innermost first for limits on one side.
+    fn breakpoints(&self, on: Interval<T>, side: Side) -> Vec<T> {
+        let mut breakpoints: Vec<T> = self.contact.gap.breakpoints(on).collect();
+        if side == Side::Left {
+            breakpoints.reverse();
+        }
+        breakpoints
     }
 
     /// Tells whether a limit may end at a corner inside the bodies.
@@ -152,10 +158,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let Ends { left, right } = self.contact.ends();
         let mean = self.conditions.load() / self.contact.kappa / (right - left);
         let on = Interval { left, right };
-        for z in self.contact.gap.breakpoints(on).collect::<Vec<_>>() {
-            for side in Side::BOTH {
+        for side in Side::BOTH {
+            let corners = self.breakpoints(on, side);
+            for (i, &z) in corners.iter().enumerate() {
                 let corner = self.corner(z, side)?;
-                if self.is_sharp(&corner, mean, T::of(0.5) * (right - left))? {
+                let half_width = T::of(0.5) * (right - left);
+                if self.is_sharp(&corner, &corners[i + 1..], mean, half_width)? {
                     return Ok(true);
                 }
             }
@@ -164,14 +172,15 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Tells whether the gap opens so steeply beyond a breakpoint that a limit next to it depends
-    /// on it. `mean` is `F/(κ L)`.
+    /// on it, given the breakpoints that follow. `mean` is `F/(κ L)`.
     fn is_sharp(
         &mut self,
         corner: &Corner<T>,
+        next: &[T],
         mean: T,
         half_width: T,
     ) -> Result<bool, ContactError<T>> {
-        Ok(self.steepest_beyond(corner, T::of(SHORT) * half_width)? > least_rise(mean))
+        Ok(self.steepest_beyond(corner, next, T::of(SHORT) * half_width)? > least_rise(mean))
     }
 
     /// Returns a breakpoint, or a limit, with the slope on its inner side.
@@ -183,12 +192,15 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Returns the steepest slope, outward, up to a distance beyond a breakpoint, above the slope
-    /// inside: at the ends of the pieces there.
-    fn steepest_beyond(&mut self, corner: &Corner<T>, reach: T) -> Result<T, ContactError<T>> {
-        let Corner { z, side, .. } = *corner;
-        let at = z + outward::<T>(side) * reach;
-        let on = Interval { left: z.min(at), right: z.max(at) };
-        let ends = self.contact.gap.breakpoints(on).map(|x| (x - z).abs());
+    /// inside: at the ends of the pieces there, given the breakpoints that follow.
+    fn steepest_beyond(
+        &mut self,
+        corner: &Corner<T>,
+        next: &[T],
+        reach: T,
+    ) -> Result<T, ContactError<T>> {
+        let z = corner.z;
+        let ends = next.iter().map(|&x| (x - z).abs()).take_while(|&away| away < reach);
         let away: Vec<T> = ends.chain([reach]).collect();
         let rises = self.rise_beyond(corner, &away)?;
         Ok(rises.into_iter().fold(self.contact.gap.jump(z)[0], T::max))
@@ -316,7 +328,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
             .map(|i| [T::of(0.5 * (1.0 + rule.nodes[i])), T::of(rule.weights[i])])
             .collect();
         let corner = self.corner(z, side)?;
-        let steepest = self.steepest_beyond(&corner, half * half_width)?;
+        let at = z + outward::<T>(side) * half * half_width;
+        let next = self.breakpoints(Interval { left: z.min(at), right: z.max(at) }, side);
+        let steepest = self.steepest_beyond(&corner, &next, half * half_width)?;
         let most = (half * half_width).sqrt();
         let mut share_at = |root: T| -> Result<T, ContactError<T>> {
             let away: Vec<T> =

@@ -28,13 +28,12 @@ impl<T: Real> Several<T> {
             };
             let part = &self.parts[i];
             let (own, root) = part.inside(&lanes, count);
+            let [far, weight] = [self.far.far(i, lanes), self.weight.on_contact(i, lanes)];
             for (lane, pressure) in out.iter_mut().enumerate() {
                 let x = lanes[lane];
                 let near = self.far.near(i).filter(|&k| k != i);
-                let others =
-                    self.outside(near, x, None) + self.far.far(i, [x])[0] + self.terms.at(x);
-                let weight = self.weight.on_contact(i, [x])[0];
-                *pressure = (own[lane] + root[lane] * others) / (T::pi() * T::pi() * weight);
+                let others = self.outside(near, x, None) + far[lane] + self.terms.at(x);
+                *pressure = (own[lane] + root[lane] * others) / (T::pi() * T::pi() * weight[lane]);
             }
         }
     }

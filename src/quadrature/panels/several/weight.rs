@@ -60,8 +60,9 @@ impl<T: Real> Weight<T> {
         let place = |i: usize| if i.is_multiple_of(2) { on[i / 2] } else { gap(i / 2) };
         let mut far = std::mem::replace(&mut self.far, FarField::new(Combine::Product));
         far.set(on, (0..2 * on.len() - 1).map(place), is_coarse, &|k, x| {
-            let [square] = self.square_by(k, x > on[k].right, [x]);
-            square
+            let mut square = [T::one()];
+            self.multiply(&mut square, k, x > on[k].right, &[x]);
+            square[0]
         });
         self.far = far;
     }
@@ -160,14 +161,10 @@ impl<T: Real> Weight<T> {
     pub fn on_contact<const W: usize>(&self, i: usize, x: [T; W]) -> [T; W] {
         let squares = self.squares([i, i], self.far.near(2 * i), self.far.far(2 * i, x), x);
         let (on, held, sign) = (self.on[i], self.held[i], self.sign_on(i));
-        let mut values = squares.map(|square| sign * square.sqrt());
-        if held.left {
-            values.iter_mut().zip(&x).for_each(|(value, &x)| *value *= x - on.left);
-        }
-        if held.right {
-            values.iter_mut().zip(&x).for_each(|(value, &x)| *value *= on.right - x);
-        }
-        values
+        std::array::from_fn(|j| {
+            let by_corners = from_held(held, [x[j] - on.left, on.right - x[j]]);
+            sign * squares[j].sqrt() * by_corners
+        })
     }
 
     /// Returns the sign of `w p` on a contact.
@@ -185,36 +182,25 @@ impl<T: Real> Weight<T> {
         x: [T; W],
     ) -> [T; W] {
         for k in contacts.filter(|k| !(first..=last).contains(k)) {
-            let by = self.square_by(k, k < first, x);
-            squares.iter_mut().zip(by).for_each(|(square, by)| *square *= by);
+            self.multiply(&mut squares, k, k < first, &x);
         }
         squares
     }
 
-    /// Returns the square of the factors by contact k at places x, and by the zero or pole between
-    /// it and them.
+    /// Multiplies by the squares of the factors at places x by contact k, and by the zero or pole
+    /// between it and them.
     #[inline(always)]
-    fn square_by<const W: usize>(&self, k: usize, to_right: bool, x: [T; W]) -> [T; W] {
-        let on = self.on[k];
-        let gap = if to_right { Some(k) } else { k.checked_sub(1) };
+    fn multiply<const W: usize>(&self, squares: &mut [T; W], k: usize, to_right: bool, x: &[T; W]) {
+        let (on, gap) = (self.on[k], if to_right { Some(k) } else { k.checked_sub(1) });
         let middle = gap.and_then(|gap| *self.middles.get(gap)?);
-        // Outside the contact both distances have the same sign.
-        match (self.held[k], middle) {
-            // No pole lies beside it.
-            (Ends { left: false, right: false }, Some(zero)) => {
-                x.map(|x| (x - zero) * (x - zero) / ((x - on.left) * (x - on.right)))
+        for (square, &x) in squares.iter_mut().zip(x) {
+            let distances = [x - on.left, x - on.right];
+            let mut factor = middle.map_or(T::one(), |middle| x - middle);
+            if self.corners > 0 {
+                factor = if self.is_inverse() { T::one() / factor } else { factor };
+                factor *= from_held(self.held[k], distances);
             }
-            (held, _) => x.map(|x| {
-                let [left, right] = [x - on.left, x - on.right];
-                let root = match held {
-                    Ends { left: false, right: false } => T::one() / (left * right),
-                    Ends { left: true, right: false } => left / right,
-                    Ends { left: false, right: true } => right / left,
-                    Ends { left: true, right: true } => left * right,
-                };
-                let away = middle.map_or(T::one(), |middle| (x - middle) * (x - middle));
-                if self.is_inverse() { root / away } else { root * away }
-            }),
+            *square *= factor * factor / (distances[0] * distances[1]);
         }
     }
 
@@ -258,12 +244,17 @@ fn count(held: Ends<bool>) -> usize {
 }
 
 /// Returns the root of the distances from both limits of a contact, over those from held ones.
-fn root_over<T: Real>(held: Ends<bool>, [from_left, from_right]: [T; 2]) -> T {
+fn root_over<T: Real>(held: Ends<bool>, [left, right]: [T; 2]) -> T {
+    (left * right).sqrt() / from_held(held, [left, right])
+}
+
+/// Returns the product of the distances from the limits of a contact that are held.
+fn from_held<T: Real>(held: Ends<bool>, [left, right]: [T; 2]) -> T {
     match held {
-        Ends { left: false, right: false } => (from_left * from_right).sqrt(),
-        Ends { left: true, right: false } => (from_right / from_left).sqrt(),
-        Ends { left: false, right: true } => (from_left / from_right).sqrt(),
-        Ends { left: true, right: true } => T::one() / (from_left * from_right).sqrt(),
+        Ends { left: false, right: false } => T::one(),
+        Ends { left: true, right: false } => left,
+        Ends { left: false, right: true } => right,
+        Ends { left: true, right: true } => left * right,
     }
 }
 
