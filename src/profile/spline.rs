@@ -98,7 +98,8 @@ pub struct Spline<T> {
 /// Part of the spline between two knots.
 #[derive(Clone, Copy, Debug)]
 struct Cubic<T> {
-    x: [T; 2],
+    /// Points at both knots.
+    ends: [CurvePoint<T>; 2],
     /// Coefficients of `Y` by the distance from the left knot, the constant first.
     coefficients: [T; 4],
     /// False if the spline has noise, which a placement forgets.
@@ -209,14 +210,16 @@ impl<T: Real> Spline<T> {
             let chord = (to[0] - from[0]) / h;
             let second = (three * chord - two * from[1] - to[1]) / h;
             let third = (from[1] + to[1] - two * chord) / h / h;
-            Cubic { x, coefficients: [from[0], from[1], second, third], is_exact: true }
+            let end = |x, [y, dy]: [T; 2]| CurvePoint { x, y, dx: T::one(), dy };
+            let ends = [end(x[0], from), end(x[1], to)];
+            Cubic { ends, coefficients: [from[0], from[1], second, third], is_exact: true }
         };
         let cubics = x.windows(2).zip(knots.windows(2)).map(cubic).collect();
         let spline = Self { cubics, noise: T::zero(), smooth: None };
         // Coefficients that have overflowed or vanished do not lead to the next knot.
         match spline.first_gap(knots) {
             Some(i) => {
-                let [before, x] = spline.cubics[i].x;
+                let [before, x] = spline.cubics[i].domain();
                 Err(SplineError::Overflow { row: i + 2, x, before })
             }
             None => Ok(spline),
@@ -228,7 +231,7 @@ impl<T: Real> Spline<T> {
         let size = |i: usize| knots.iter().fold(T::zero(), |size, knot| size.max(knot[i].abs()));
         let allowed = [0, 1].map(|i| T::epsilon().sqrt() * size(i));
         self.cubics.iter().zip(&knots[1..]).position(|(cubic, to)| {
-            let CurvePoint { y, dy, .. } = cubic.at(cubic.x[1]);
+            let CurvePoint { y, dy, .. } = cubic.at(cubic.ends[1].x);
             let is_finite = allowed[0].is_finite() && allowed[1].is_finite() && dy.is_finite();
             let meets = (y - to[0]).abs() <= allowed[0] && (dy - to[1]).abs() <= allowed[1];
             !(meets && is_finite)
@@ -264,23 +267,23 @@ impl<T: Real> Spline<T> {
     }
 
     fn cubic(&self, x: T) -> &Cubic<T> {
-        let index = self.cubics.partition_point(|cubic| cubic.x[1] < x);
+        let index = self.cubics.partition_point(|cubic| cubic.ends[1].x < x);
         &self.cubics[index.min(self.cubics.len() - 1)]
     }
 }
 
 impl<T: Real> ParametricProfile<T> for Cubic<T> {
     fn domain(&self) -> [T; 2] {
-        self.x
+        self.ends.map(|end| end.x)
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {
-        let (t, [a, b, c, d]) = (k - self.x[0], self.coefficients);
+        let (t, [a, b, c, d]) = (k - self.ends[0].x, self.coefficients);
         CurvePoint { x: k, y: a + t * (b + t * (c + t * d)), dx: T::one(), dy: self.slope(t) }
     }
 
     fn slope_at(&self, x: T) -> Option<T> {
-        Some(self.slope(x - self.x[0]))
+        Some(self.slope(x - self.ends[0].x))
     }
 
     fn slope_deviation(&self, _: &[T], _: &[T]) -> Option<T> {
@@ -297,7 +300,7 @@ impl<T: Real> Cubic<T> {
 
 impl<T: Real> ParametricProfile<T> for Spline<T> {
     fn domain(&self) -> [T; 2] {
-        [self.cubics[0].x[0], self.cubics[self.cubics.len() - 1].x[1]]
+        [self.cubics[0].ends[0].x, self.cubics[self.cubics.len() - 1].ends[1].x]
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {
@@ -321,6 +324,6 @@ impl<T: Real> ParametricProfile<T> for Spline<T> {
 
     fn piece(&self, index: usize) -> Option<Piece<'_, T>> {
         let cubic = self.cubics.get(index)?;
-        Some(Piece { curve: cubic, k: cubic.x, ends: cubic.x.map(|x| cubic.at(x)) })
+        Some(Piece { curve: cubic, k: cubic.domain(), ends: cubic.ends })
     }
 }
