@@ -22,8 +22,8 @@ const LOAD_AHEAD: f64 = 1.05;
 /// Largest uncertainty of panels for which the foot of a bump is to be seen, as a share of F/κ.
 const MAX_AT_FOOT: f64 = 1e-3;
 
-/// Largest distance of points next to a contact from their panels, as a share of F/κ: crests of
-/// this height may hide.
+/// Largest uncertainty of panels next to a contact, and largest distance of points from them, as a
+/// share of F/κ: crests of this height may hide.
 pub(crate) const MAX_NEAR_UNCERTAINTY: f64 = 0.1;
 
 /// Largest distance of a point from a panel that does not count as missed, as a multiple of its
@@ -138,7 +138,7 @@ impl<T: Real> Survey<T> {
                 continue;
             }
             for (body, surface) in self.bodies.iter_mut().zip(&gap.bodies) {
-                body.probe(gap, surface, stretches, T::of(MAX_AT_FOOT) * load, &mut cost.heights);
+                body.probe(gap, surface, stretches, load, &mut cost.heights);
             }
             for stretch in stretches.iter().filter(|stretch| !stretch.is_missed) {
                 self.seen.retain(|seen| !(seen.is_seen_by(stretch) && stretch.apart <= seen.apart));
@@ -152,7 +152,8 @@ impl<T: Real> Survey<T> {
             let mut marked = std::mem::take(&mut self.marked);
             marked[0].clear();
             marked[0].extend(stretches.iter().map(|stretch| stretch.x));
-            let refined = self.refine_void(gap, &marked[0], cost);
+            let vague = T::of(MAX_NEAR_UNCERTAINTY / MAX_MISMATCH) * load;
+            let refined = self.refine_at(gap, [&marked[0]; 2], vague, cost);
             self.marked = marked;
             if !refined? {
                 break;
@@ -225,9 +226,7 @@ impl<T: Real> Survey<T> {
         load: T,
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
-        // A point this far off may still be met by its panel.
-        let vague = T::of(MAX_NEAR_UNCERTAINTY / MAX_MISMATCH) * load;
-        let tolerance = T::of(MAX_AT_FOOT) * load;
+        let (tolerance, vague) = (T::of(MAX_AT_FOOT) * load, T::of(MAX_NEAR_UNCERTAINTY) * load);
         let mut is_finer = false;
         for _ in 0..MAX_ROUNDS {
             let mut marked = std::mem::take(&mut self.marked);
@@ -376,16 +375,18 @@ fn within<T: Real>(gap: &Gap<'_, T>, pair: &[Node<T>], x: [T; 2], level: T) -> O
 
 impl<T: Real> Body<T> {
     /// Evaluates points on some stretches, those of a piece in one batch, and voids panels that
-    /// miss them. A point further off than `most`, but within the uncertainty of its panel, is
-    /// kept: the next panels there may seem more exact, and miss it.
+    /// miss them. A stretch is missed, too, if a panel is off by as much as a crest under the load
+    /// F/κ. A point further off than a foot, but within the uncertainty of its panel, is kept: the
+    /// next panels there may seem more exact, and miss it.
     fn probe(
         &mut self,
         gap: &Gap<'_, T>,
         surface: &Surface<'_, T>,
         stretches: &mut [Stretch<T>],
-        most: T,
+        load: T,
         heights: &mut usize,
     ) {
+        let [foot, near] = [MAX_AT_FOOT, MAX_NEAR_UNCERTAINTY].map(|share| T::of(share) * load);
         let mut probes = std::mem::take(&mut self.scratch.probes);
         probes.clear();
         let known = stretches.iter_mut().enumerate().filter(|(_, stretch)| !stretch.is_missed);
@@ -411,13 +412,15 @@ impl<T: Real> Body<T> {
                 let Some(number) = panel.series else { continue };
                 let (by, doubt) = (self.series[number].miss(t, &point), self.series[number].doubt);
                 let is_met = by <= T::of(MAX_MISMATCH) * doubt;
-                if !is_met || by > most {
+                if !is_met || by > foot {
                     let by = if is_met { T::one() / T::zero() } else { by };
                     self.missed.push(Missed { piece, k, point, by, apart: stretch.apart });
                 }
+                // Only noise excuses a panel that is off by as much as a crest may hide.
+                let may_hide = by > near && panel.may_gain(near / T::of(MAX_MISMATCH));
+                stretch.is_missed |= !is_met || may_hide;
                 if !is_met {
                     panel.void();
-                    stretch.is_missed = true;
                 }
             }
         }
