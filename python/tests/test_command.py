@@ -189,13 +189,23 @@ def test_a_moment_tilts(run: Run, tmp_path: Path) -> None:
     assert "tilt" not in run(roller({"load": 100.0}))[1]
 
 
+def line(x: Array, y: Array) -> lc.Curve:
+    slope = (y[1] - y[0]) / (x[1] - x[0])
+    return lc.Curve((x[0], x[1]), lambda k: (k, y[0] + slope * (k - x[0]), 1.0, slope))
+
+
 def test_doubts_are_told(run: Run) -> None:
     edges = (lc.Edge.fixed(-1.0), lc.Edge.fixed(1.0))
     punch = Scene(lc.Contact(lc.Flat(), lc.Flat(), edges=edges, contact_modulus=1e5), ({"load": 100.0},), {}, "")
     code, text, _ = run(punch)
     assert code == 0 and re.search(r"largest pressure +inf +at x = 1$", text, re.MULTILINE)
     assert "without materials" in text and not text.startswith("\n")
-    assert "nan" not in text and "numerical error" not in text
+    assert "nan" not in text and "numerical error" not in text and "held at x = -1, 1" in text
+    heights = {-2.0: 0.0, -1.0: 0.0, -0.5: 5e8, 0.5: 5e8, 1.0: 0.0, 2.0: 0.0}
+    x, y = np.array(list(heights)), np.array(list(heights.values()))
+    land = lc.Piecewise([line(x[i : i + 2], y[i : i + 2]) for i in range(5)])
+    text = run(Scene(lc.Contact(lc.Flat(), land, edges=(lc.Edge.fixed(-2.0), lc.Edge.fixed(2.0)), kappa=1.0), ({"load": 0.3},), {}, ""))[1]
+    assert "held at x = -2, -1, 1, 2" in text
     bumps = lc.Curve((-2.0, 2.0), lambda k: (k, k**4 - 2 * k**2, 1.0, 4 * k**3 - 4 * k))
     text = run(Scene(lc.Contact(lc.Flat(), bumps), ({"load": 1.0},), {}, ""))[1]
     assert "2 contacts" in text and "kappa = 1" in text and "too steep" in text

@@ -46,6 +46,16 @@ impl<T: Real> Display for Solution<'_, T> {
             Some(error) => {
                 let error = Rounded(error.to_subset_unchecked(), 2);
                 write!(f, "\nlimits to {error} of the half-width, ")?;
+                let solved = self.solved();
+                let held: Vec<_> = solved
+                    .held_limits()
+                    .filter(|&(_, side, _)| !self.found.adhesive[side])
+                    .collect();
+                for (n, &(i, side, _)) in held.iter().rev().enumerate() {
+                    f.write_str(if n > 0 { ", " } else { "held at x = " })?;
+                    write!(f, "{}", rounded(solved.contacts()[i][side], f))?;
+                }
+                f.write_str(if held.is_empty() { "" } else { ", " })?;
             }
             None => f.write_str("\nlimits given, ")?,
         }

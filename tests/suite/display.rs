@@ -1,7 +1,7 @@
 //! Results as text.
 #![allow(missing_docs)]
 
-use crate::common::{on_flat, quartic};
+use crate::common::{Profile, join, on_flat, quartic};
 use linecontact::profile::Parabola;
 use linecontact::stress::Stress;
 use linecontact::{
@@ -57,6 +57,29 @@ fn several_contacts_and_given_limits() {
     let text = punch.solve(Control::Load(0.3)).unwrap().to_string();
     let expected = "contact [-1, 1]\nload 0.3, pressure infinite at x = 1\nlimits given, checked";
     assert_eq!(text, expected);
+}
+
+/// A groove parts a land: all four limits are at corners, the inner ones inside the body.
+#[test]
+fn limits_that_corners_hold_are_named() {
+    let (wall, depth) = (1e-10, 0.1);
+    let knots = [[-2.0, 0.0], [-1.0, 0.0], [-1.0 + wall, depth], [1.0 - wall, depth], [1.0, 0.0]];
+    let knots = [&knots[..], &[[2.0, 0.0]]].concat();
+    let line = |ends: &[[f64; 2]]| -> Profile {
+        let [[x, y], [to, end]] = [ends[0], ends[1]];
+        let slope = (end - y) / (to - x);
+        Box::new(Curve::new([x, to], move |k: f64| CurvePoint {
+            x: k,
+            y: y + slope * (k - x),
+            dx: 1.0,
+            dy: slope,
+        }))
+    };
+    let body = join(knots.windows(2).map(line).collect());
+    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = contact.edges(Edge::Fixed(-2.0), Edge::FreeUntil(2.0));
+    let text = contact.solve(Control::Load(0.3)).unwrap().to_string();
+    assert!(text.ends_with(" of the half-width, held at x = -2, -1, 1, 2, checked"), "{text}");
 }
 
 #[test]

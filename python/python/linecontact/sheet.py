@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -203,11 +204,16 @@ def _notes(row: Row, units: dict[str, str]) -> list[str]:
     errors = [numbers["limits_error"], numbers["peak_error"] / numbers["peak_pressure"]]
     error = 10.0 ** math.ceil(math.log10(max([one for one in errors if one > _EXACT], default=_EXACT)))
     several = f"{len(solution.intervals)} contacts: the limits are those of the first and the last"
+    held: list[str] = []
+    with suppress(LineContactError):
+        limits = [pair for one in solution.contacts() for pair in zip(one.interval, one.held, strict=True)]
+        held = [f"{x:.6g}" for x, is_held in limits if is_held]
     notes = [
         (all(one >= 0.0 for one in errors), "numerical error", f"below {error:.0e} of half-width and largest pressure"),
         (numbers["half_width_deviation"] > 0.0, "noise of the points", deviation),
         (True, "checked", checked),
         (len(solution.intervals) > 1, "note", several),
+        (bool(held), "note", f"held at x = {', '.join(held)}"),
         (poisson_ratio(solution.contact) is None, "note", "without materials Tresca is for Poisson's ratios from 1/4"),
         (len(row.missing) > 0, "not known of layers", ", ".join(row.missing)),
         (not solution.contact.has_modulus, "note", "no modulus is given: pressures are those of kappa = 1"),
