@@ -21,12 +21,12 @@
 
 use super::super::newton::Stop;
 use super::super::newton::several::{NewtonSeveral, put};
-use super::{Conditions, Given, Search};
+use super::{Conditions, Found, Given, Search};
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels;
 use crate::solution::ContactState;
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Edge, Ends, Interval, Real, Side};
 
 /// Largest distance of a limit from a corner that may hold it, as a share of the half-width: that
 /// of limits by cells.
@@ -42,7 +42,7 @@ const SHORT: f64 = 1e-4;
 /// Share of a contact's half-width by which a limit leaves a corner inward.
 const STEP_INWARD: f64 = 0.01;
 
-/// Least ratio of shares d/L that are let go together.
+/// Least ratio of distances d that are let go together.
 const TOGETHER: f64 = 0.01;
 
 /// Doublings of √d from its least value, and halvings of its logarithm after them: a start.
@@ -72,6 +72,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         conditions: &Conditions<T>,
     ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
+        let workspace = &mut *self.work.workspace;
+        workspace.before.clone_from(&workspace.newton.on);
         self.hold(conditions)?;
         loop {
             let mut found = match self.converge_once(conditions)? {
@@ -82,6 +84,25 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 return Ok(Ok(found));
             }
         }
+    }
+
+    /// Seeks one contact again, with limits held, if a free limit has been found closer beyond a
+    /// corner than the rounding of x lets it be known.
+    pub(super) fn settled(&mut self, found: ContactState<T>) -> Found<T> {
+        let (on, gap) = (found.interval, &self.contact.gap);
+        let is_unknown = |side: Side| {
+            let inward = -outward::<T>(side) * known_from(on[side], on.half_width());
+            let x = [on[side], on[side] + inward];
+            let around = Interval { left: x[0].min(x[1]), right: x[0].max(x[1]) };
+            found.free[side] && gap.breakpoints(around).next().is_some()
+        };
+        if !self.may_be_several() || !Side::BOTH.into_iter().any(is_unknown) {
+            return Ok(found);
+        }
+        self.work.workspace.newton.on = vec![on];
+        let edges = self.contact.edges.map(Edge::let_go);
+        let again = self.converge(&Conditions { edges, ..self.conditions })?;
+        Ok(again.unwrap_or(found))
     }
 
     /// Holds the limits at hand that are at an end of the bodies, or next to a corner inside them.
@@ -266,19 +287,17 @@ impl<T: Real> Search<'_, '_, '_, T> {
             // A wall that does not make up for the pressure is no corner.
             let as_before = outward::<T>(side) * (self.work.workspace.before[contact][side] - z);
             let d = self.beyond(z, side, strength, half_width)?.unwrap_or(as_before);
-            // The rounding of x changes the pressure by a share ε x/(2 d).
-            let rounding = T::epsilon() * z.abs().max(half_width);
-            if d.abs() > (rounding * half_width).sqrt() {
-                beyond.push(((contact, side, z), d, d.abs() / half_width));
+            if d.abs() > known_from(z, half_width) {
+                beyond.push(((contact, side, z), d));
             } else {
                 // A distance that is no number leaves the contact doubtful.
                 error += (d + d).abs() / half_width;
             }
         }
-        // Each changes the pressure at the others by its share of the width.
-        let most = beyond.iter().fold(T::zero(), |most, &(.., share)| most.max(share));
-        for &(limit, d, share) in &beyond {
-            if share >= T::of(TOGETHER) * most {
+        // A step that is small for a wide contact moves a narrow one next to it far.
+        let most = beyond.iter().fold(T::zero(), |most, &(_, d)| most.max(d.abs()));
+        for &(limit, d) in &beyond {
+            if d.abs() >= T::of(TOGETHER) * most {
                 self.let_go(limit, d);
             }
         }
@@ -364,6 +383,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
 /// Returns the direction of x out of a contact.
 fn outward<T: Real>(side: Side) -> T {
     if side == Side::Left { -T::one() } else { T::one() }
+}
+
+/// Returns the least distance from a corner at which the rounding of x, which changes the
+/// pressure by a share `ε x/(2 d)`, matters less than the distance itself.
+fn known_from<T: Real>(x: T, half_width: T) -> T {
+    (T::epsilon() * x.abs().max(half_width) * half_width).sqrt()
 }
 
 /// Returns the least rise of the slope at a sharp corner: for a flat `d/L = (π F/(2 κ L j))²/2`.

@@ -127,8 +127,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if start == Start::ActiveSet {
             self.take_cells(conditions)?;
         }
-        let workspace = &mut *self.work.workspace;
-        workspace.before.clone_from(&workspace.newton.on);
         let found = match self.converge(conditions) {
             Ok(Ok(found)) => found,
             Ok(Err(stop)) => return Ok(self.revise(stop, start)),

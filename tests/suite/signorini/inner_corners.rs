@@ -3,7 +3,10 @@
 
 use super::{Bodies, Dice, Tally, judge, scenes};
 use crate::common::{Profile, join};
-use linecontact::{Contact, Control, Curve, CurvePoint, Edge, Flat, Solution};
+use linecontact::{
+    Contact, Control, Curve, CurvePoint, Edge, Flat, Material, PlaneState, Reference, References,
+    Solution,
+};
 use std::f64::consts::PI;
 
 /// Allowed error of the potential as a share of the load: next to a corner the series of the judge
@@ -196,6 +199,22 @@ impl Scene {
 }
 
 impl Scene {
+    /// Returns a scene most of whose grooves are dimples: parabolas from corner to corner.
+    fn with_dimples(dice: &mut Dice) -> Self {
+        let mut scene = Self::new(dice);
+        for groove in &mut scene.grooves {
+            let [left, right] = [groove[0].x[0], groove[1].x[0]];
+            if dice.uniform() < 0.8 {
+                let depth = (right - left) * dice.power_of_ten(-3.0, -0.5);
+                *groove = [left, right].map(|x| {
+                    let x = [x, 0.5 * (left + right)];
+                    Fall { wall: Wall::Arc, x, depth }
+                });
+            }
+        }
+        scene
+    }
+
     fn contact<'b>(&self, body: &'b Profile) -> Contact<'b, f64> {
         let [left, right] = self.edges();
         Contact::new(&Flat, &**body).unwrap().kappa(1.0).edges(left, right)
@@ -216,13 +235,21 @@ impl Scene {
 
 #[test]
 fn contacts_end_at_corners_inside_the_bodies() {
-    let mut tally = Tally::default();
     // A limit at a hollow corner before another corner; an overlap within the error of a held
     // limit; corners that move their limits by shares that differ by many decades; a series of the
     // pressure that hides a corner.
-    let by_name = [173, 195, 612, 853];
-    for seed in scenes(60).chain(by_name) {
-        let scene = Scene::new(&mut Dice::new(seed));
+    solve_all(scenes(100).chain([173, 195, 612, 853]), Scene::new);
+}
+
+#[test]
+fn contacts_end_at_the_corners_of_dimples() {
+    solve_all(scenes(100), Scene::with_dimples);
+}
+
+fn solve_all(seeds: impl Iterator<Item = u64>, new: fn(&mut Dice) -> Scene) {
+    let mut tally = Tally::default();
+    for seed in seeds {
+        let scene = new(&mut Dice::new(seed));
         let body = scene.body();
         let contact = scene.contact(&body);
         let height = |x: f64| scene.height(x);
@@ -252,6 +279,33 @@ fn under_a_moment_too() {
         let faults = judge(&bodies, &solution, scene.load);
         assert!(!faults.is_wrong(ALLOWED), "{seed} {scene:?}: {faults:?}");
     }
+}
+
+/// The approach under a load leads to this load again.
+#[test]
+fn by_approach_too() {
+    let (steel, mut faults) = (Material::elastic(1.0, 0.3), Vec::new());
+    for seed in scenes(60) {
+        for new in [Scene::new, Scene::with_dimples] {
+            let scene = new(&mut Dice::new(seed));
+            let body = scene.body();
+            let contact = scene.contact(&body).materials(steel, steel, PlaneState::Strain);
+            let Ok(due) = contact.solve(Control::Load(scene.load)) else { continue };
+            let depth = Reference::Depth(20.0 * scene.half);
+            let references = References { x: 0.0, lower: depth, upper: depth };
+            let approach = due.approach(&references).unwrap().bodies;
+            match contact.solve(Control::Approach { approach, references }) {
+                Ok(found) => {
+                    let off = (found.load() / scene.load - 1.0).abs();
+                    if off > 1e-8 || found.intervals().len() != due.intervals().len() {
+                        faults.push(format!("{seed} {scene:?}: {found}, off by {off:e}, {due}"));
+                    }
+                }
+                Err(error) => faults.push(format!("{seed} {scene:?}: {error}")),
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}: {}", faults.len(), faults.join("\n"));
 }
 
 /// `P = (F/π) |x|/√((x²-1)(4-x²))` between walls that are nearly upright.
