@@ -148,8 +148,7 @@ impl<T: Real> FarField<T> {
         let (half, mut series) = (places.half_width(), [T::zero(); MAX_SIZE]);
         by_size!(terms, N => {
             let table = Table::of(N);
-            let x: [T; N] =
-                std::array::from_fn(|j| places.left + half * T::of(1.0 + table.z[j]));
+            let x: [T; N] = std::array::from_fn(|j| places.left + half * T::of(1.0 + table.z[j]));
             let mut values = above.values(x, self.combine.nothing());
             for i in (above.near.start..near.start).chain(near.end..above.near.end) {
                 for (value, &x) in values.iter_mut().zip(&x) {

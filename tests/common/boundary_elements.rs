@@ -113,10 +113,16 @@ impl Oracle {
 
     /// Returns the load per unit length.
     pub fn load(&self) -> f64 {
+        self.load_in(Interval { left: self.x[0], right: self.x[self.x.len() - 1] })
+    }
+
+    /// Returns the load of the cells on an interval and next to it.
+    pub fn load_in(&self, on: Interval<f64>) -> f64 {
+        let is_in = |&i: &usize| self.x[i + 1] >= on.left && self.x[i] <= on.right;
         let cell = |i: usize| {
             0.5 * (self.x[i + 1] - self.x[i]) * (self.pressure[i] + self.pressure[i + 1])
         };
-        (0..self.x.len() - 1).map(cell).sum()
+        (0..self.x.len() - 1).filter(is_in).map(cell).sum()
     }
 }
 

@@ -2,10 +2,11 @@
 //! corners inside the bodies, or next to them.
 
 use super::{Bodies, Dice, Tally, judge, scenes};
+use crate::boundary_elements::solve;
 use crate::common::{Profile, join};
 use linecontact::{
-    Contact, Control, Curve, CurvePoint, Edge, Flat, Material, PlaneState, Reference, References,
-    Solution,
+    Contact, Control, Curve, CurvePoint, Edge, Flat, Interval, Material, PlaneState, Reference,
+    References, Solution,
 };
 use std::f64::consts::PI;
 
@@ -279,6 +280,46 @@ fn under_a_moment_too() {
         let faults = judge(&bodies, &solution, scene.load);
         assert!(!faults.is_wrong(ALLOWED), "{seed} {scene:?}: {faults:?}");
     }
+}
+
+/// Boundary elements have the same contacts, and the same load in each.
+#[test]
+fn boundary_elements_agree() {
+    let mut judged = 0;
+    for seed in scenes(25) {
+        for new in [Scene::new, Scene::with_dimples] {
+            let scene = Scene { may_part: true, ..new(&mut Dice::new(seed)) };
+            let spans: Vec<[f64; 2]> = scene.spans().into_iter().map(|(ends, _)| ends).collect();
+            let kinks: Vec<f64> = spans[1..].iter().map(|ends| ends[0]).collect();
+            let end = |i: usize, x: f64| scene.chamfers[i].map_or(x, |fall| fall.x[1]);
+            let range = [end(0, -scene.half), end(1, scene.half)];
+            let height = |x: f64| scene.height(x.max(range[0]).min(range[1]));
+            let Some(oracle) = solve(&height, 1.0, scene.load, range, &kinks) else {
+                continue;
+            };
+            let body = scene.body();
+            let solution = scene.contact(&body).solve(Control::Load(scene.load)).unwrap();
+            let found = solution.contacts().unwrap();
+            assert_eq!(found.len(), oracle.contacts.len(), "{seed} {scene:?}: {solution}");
+            for ((one, on), error) in found.iter().zip(&oracle.contacts).zip(&oracle.errors) {
+                // The cells next to infinite pressures leave an error that moves narrow contacts.
+                let width = |on: Interval<f64>| on.right - on.left;
+                let least = 0.01 * width(one.interval).max(0.01 * width(solution.hull()));
+                let off = [one.interval.left - on.left, one.interval.right - on.right];
+                for (off, error) in off.into_iter().zip(error) {
+                    assert!(
+                        off.abs() <= least.max(3.0 * error),
+                        "{seed} {scene:?}: {solution}, {on:?}"
+                    );
+                }
+                let off = (oracle.load_in(*on) - one.load).abs() / scene.load;
+                assert!(off < 0.01, "{seed} {scene:?}: {on:?} {off:e} {solution}");
+            }
+            judged += 1;
+        }
+    }
+    println!("{judged} judged");
+    assert!(judged > 0);
 }
 
 /// The approach under a load leads to this load again.
