@@ -21,7 +21,7 @@
 
 use super::super::newton::Stop;
 use super::super::newton::several::{NewtonSeveral, put};
-use super::{Conditions, Found, Given, Search};
+use super::{Conditions, Found, Given, Search, Workspace};
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels;
@@ -78,6 +78,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         loop {
             let mut found = match self.converge_once(conditions)? {
                 Ok(found) => found,
+                // With limits held the contact is wider, and may need more than the bodies have.
+                Err(Stop::Beyond { .. }) if self.lets_all_go() => continue,
                 stopped => return Ok(stopped),
             };
             if !self.misses(&found)? && !self.lets_go(&mut found)? {
@@ -306,6 +308,17 @@ impl<T: Real> Search<'_, '_, '_, T> {
             found.error = Some(found.error.unwrap_or(T::zero()) + error);
         }
         Ok(!beyond.is_empty())
+    }
+
+    /// Puts the limits that are held inside the bodies back where they were, free; tells whether
+    /// there are any.
+    fn lets_all_go(&mut self) -> bool {
+        let (ends, count) = (self.contact.ends(), self.held.len());
+        self.held.retain(|&(z, side)| z == ends[side]);
+        let Workspace { newton, before, .. } = &mut *self.work.workspace;
+        newton.on.clone_from(before);
+        self.held.iter().for_each(|&(z, side)| put(&mut newton.on, side, z));
+        self.held.len() < count
     }
 
     /// Puts a held limit at a distance beyond its corner.
