@@ -129,7 +129,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             for side in Side::BOTH {
                 let on = self.work.workspace.newton.on[i];
                 if let Some(z) = self.corner_next_to(on, side, mean)? {
-                    self.put_limit(i, side, z);
+                    put(&mut self.work.workspace.newton.on[i..=i], side, z);
                     self.held.push((z, side));
                 }
             }
@@ -160,7 +160,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
                     break;
                 }
             }
-            if self.is_sharp(&corner, &corners[i + 1..], mean, on.half_width())? {
+            let reach = T::of(SHORT) * on.half_width();
+            if self.steepest_beyond(&corner, &corners[i + 1..], reach)? > least_rise(mean) {
                 return Ok(Some(z));
             }
         }
@@ -180,30 +181,17 @@ impl<T: Real> Search<'_, '_, '_, T> {
     pub(super) fn has_corners(&mut self) -> Result<bool, ContactError<T>> {
         let Ends { left, right } = self.contact.ends();
         let mean = self.conditions.load() / self.contact.kappa / (right - left);
-        let on = Interval { left, right };
+        let (on, reach) = (Interval { left, right }, T::of(0.5 * SHORT) * (right - left));
         for side in Side::BOTH {
             let corners = self.breakpoints(on, side);
             for (i, &z) in corners.iter().enumerate() {
-                let corner = self.corner(z, side)?;
-                let half_width = T::of(0.5) * (right - left);
-                if self.is_sharp(&corner, &corners[i + 1..], mean, half_width)? {
+                let (corner, next) = (self.corner(z, side)?, &corners[i + 1..]);
+                if self.steepest_beyond(&corner, next, reach)? > least_rise(mean) {
                     return Ok(true);
                 }
             }
         }
         Ok(false)
-    }
-
-    /// Tells whether the gap opens so steeply beyond a breakpoint that a limit next to it depends
-    /// on it, given the breakpoints that follow. `mean` is `F/(κ L)`.
-    fn is_sharp(
-        &mut self,
-        corner: &Corner<T>,
-        next: &[T],
-        mean: T,
-        half_width: T,
-    ) -> Result<bool, ContactError<T>> {
-        Ok(self.steepest_beyond(corner, next, T::of(SHORT) * half_width)? > least_rise(mean))
     }
 
     /// Returns a breakpoint, or a limit, with the slope on its inner side.
@@ -245,14 +233,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let slopes = slopes.collect();
         self.work.cost.heights += sampler.cost.evaluations;
         slopes
-    }
-
-    fn put_limit(&mut self, contact: usize, side: Side, x: T) {
-        let on = &mut self.work.workspace.newton.on[contact];
-        match side {
-            Side::Left => on.left = x,
-            Side::Right => on.right = x,
-        }
     }
 
     /// Marks the limits of the contacts at hand that are held.
@@ -324,7 +304,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Puts a held limit at a distance beyond its corner.
     fn let_go(&mut self, (contact, side, z): (usize, Side, T), away: T) {
         self.held.retain(|&held| held != (z, side));
-        self.put_limit(contact, side, z + outward::<T>(side) * away);
+        let on = &mut self.work.workspace.newton.on[contact..=contact];
+        put(on, side, z + outward::<T>(side) * away);
     }
 
     /// Lists the limits that are held, with the strengths of their singularities.
