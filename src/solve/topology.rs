@@ -203,7 +203,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         while self.misses(&found)? {
             found = self.one_from(Some(found.interval), looks)?;
         }
-        self.settled(found)
+        Ok(found)
     }
 
     /// Seeks one contact around the last one, if any; without it, from the survey if `looks` is

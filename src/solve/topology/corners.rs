@@ -21,12 +21,12 @@
 
 use super::super::newton::Stop;
 use super::super::newton::several::{NewtonSeveral, put};
-use super::{Conditions, Found, Given, Search, Workspace};
+use super::{Conditions, Given, Search, Workspace};
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels;
 use crate::solution::ContactState;
-use crate::{ContactError, Edge, Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, Interval, Real, Side};
 
 /// Largest distance of a limit from a corner that may hold it, as a share of the half-width: that
 /// of limits by cells.
@@ -86,25 +86,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 return Ok(Ok(found));
             }
         }
-    }
-
-    /// Seeks one contact again, with limits held, if a free limit has been found closer beyond a
-    /// corner than the rounding of x lets it be known.
-    pub(super) fn settled(&mut self, found: ContactState<T>) -> Found<T> {
-        let (on, gap) = (found.interval, &self.contact.gap);
-        let is_unknown = |side: Side| {
-            let inward = -outward::<T>(side) * known_from(on[side], on.half_width());
-            let x = [on[side], on[side] + inward];
-            let around = Interval { left: x[0].min(x[1]), right: x[0].max(x[1]) };
-            found.free[side] && gap.breakpoints(around).next().is_some()
-        };
-        if !self.may_be_several() || !Side::BOTH.into_iter().any(is_unknown) {
-            return Ok(found);
-        }
-        self.work.workspace.newton.on = vec![on];
-        let edges = self.contact.edges.map(Edge::let_go);
-        let again = self.converge(&Conditions { edges, ..self.conditions })?;
-        Ok(again.unwrap_or(found))
     }
 
     /// Holds the limits at hand that are at an end of the bodies, or next to a corner inside them.
@@ -269,7 +250,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
             // A wall that does not make up for the pressure is no corner.
             let as_before = outward::<T>(side) * (self.work.workspace.before[contact][side] - z);
             let d = self.beyond(z, side, strength, half_width)?.unwrap_or(as_before);
-            if d.abs() > known_from(z, half_width) {
+            // The rounding of x changes the pressure by a share ε x/(2 d).
+            let rounding = T::epsilon() * z.abs().max(half_width);
+            if d.abs() > (rounding * half_width).sqrt() {
                 beyond.push(((contact, side, z), d));
             } else {
                 // A distance that is no number leaves the contact doubtful.
@@ -377,12 +360,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
 /// Returns the direction of x out of a contact.
 fn outward<T: Real>(side: Side) -> T {
     if side == Side::Left { -T::one() } else { T::one() }
-}
-
-/// Returns the least distance from a corner at which the rounding of x, which changes the
-/// pressure by a share `ε x/(2 d)`, matters less than the distance itself.
-fn known_from<T: Real>(x: T, half_width: T) -> T {
-    (T::epsilon() * x.abs().max(half_width) * half_width).sqrt()
 }
 
 /// Returns the least rise of the slope at a sharp corner: for a flat `d/L = (π F/(2 κ L j))²/2`.
