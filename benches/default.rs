@@ -12,8 +12,8 @@
 //!
 //! cold: from the bodies to the limits. next: with a `Solver`, a load 2 % above the one before,
 //! then back; evaluations are counted the first time, when nothing is known beyond the lower load.
-//! `layer0.3` and `layer1` are circles on a bonded layer of a tenth of their radius, with contacts of
-//! this half-width by its thickness. They are only counted, by `repeat`.
+//! `layer0.3` and `layer1` are circles on a bonded layer of a tenth of their radius, with contacts
+//! of this half-width by its thickness. They are only counted, by `repeat`.
 //!
 //! In `bare-cold` and `bare-next` one interval is sought and not checked
 //! (`Contact::single_interval`).
