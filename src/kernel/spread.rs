@@ -47,19 +47,16 @@ pub(super) fn places<T: Real>(on: Interval<T>, count: usize) -> impl Iterator<It
 
 /// Returns the Chebyshev coefficients of a polynomial, given its values at the nodes.
 pub(super) fn series<T: Real>(values: &[T]) -> Vec<T> {
-    let count = values.len();
-    let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(count);
-    let mut series = vec![T::zero(); count];
-    for (i, &value) in values.iter().enumerate() {
-        let cos = angle(i).cos();
-        let mut pair = [value, value * cos];
-        for term in &mut series {
-            *term += pair[0];
-            pair = [pair[1], (cos + cos) * pair[1] - pair[0]];
-        }
-    }
+    let (zero, count) = (T::zero(), values.len());
     let share = T::of(2.0) / T::count(count);
-    series.iter_mut().for_each(|term| *term *= share);
+    let step = T::pi() / T::count(2 * count);
+    // All angles are multiples of one.
+    let cosines: Vec<T> = (0..4 * count).map(|j| share * (step * T::count(j)).cos()).collect();
+    let term = |k: usize| {
+        let terms = values.iter().enumerate();
+        terms.fold(zero, |sum, (i, &value)| sum + value * cosines[(2 * i + 1) * k % (4 * count)])
+    };
+    let mut series: Vec<T> = (0..count).map(term).collect();
     series[0] *= T::of(0.5);
     series
 }

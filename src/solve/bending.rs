@@ -24,6 +24,9 @@ use std::sync::Arc;
 /// Contacts solved before the search is given up.
 const MAX_SOLVES: usize = 120;
 
+/// ρ that ends the search, in units in the last place: the rounding of r.
+const LEAST: f64 = 16.0;
+
 /// Least part of a correction that is tried.
 const LEAST_PART: f64 = 1.0 / 64.0;
 
@@ -183,7 +186,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             };
             let Some(Correction { spreads, residual }) = self.correct(&solved)? else { break };
             let is_whole = self.share >= T::one();
-            let is_least = residual <= T::of(4.0) * T::epsilon()
+            let is_least = residual <= T::of(LEAST) * T::epsilon()
                 || residual <= T::epsilon().powf(T::of(0.75))
                     && residual > T::of(0.2) * self.before;
             if is_least && is_whole && left == 0 {
