@@ -70,9 +70,7 @@ pub enum EvaluationError<T: Real> {
         interval: Interval<T>,
     },
     /// The formula of a quantity is for half-planes, and the bodies have layers or another kernel.
-    #[error(
-        "{quantity} is known for half-planes only, not for bodies with a layer or another kernel"
-    )]
+    #[error("{quantity} is not known of bodies with a layer or another kernel")]
     HalfPlanesOnly {
         /// Name of the quantity.
         quantity: &'static str,

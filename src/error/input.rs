@@ -92,8 +92,8 @@ pub enum InputError<T: Real> {
     },
     /// A contact is too wide for the layer below it, or another kernel as short.
     #[error(
-        "the contact is {} times as wide as its layer is thick, half-width by thickness, and at \
-         most {} are solved: take the layer for a foundation of springs, or its base for the body",
+        "the half-width of the contact is {} times the thickness of its layer, and at most {} times \
+         are solved: take the layer for a foundation of springs, or its base for the body",
         six(*ratio), six(*limit)
     )]
     LayerTooThin {

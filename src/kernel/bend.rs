@@ -6,7 +6,7 @@
 use super::Kernel;
 use super::spread::{Loads, Spread, places, series};
 use crate::numerics::chebyshev::{MAX_SIZE, value_at};
-use crate::{Interval, Real};
+use crate::{Ends, Interval, Real, Side};
 use std::sync::OnceLock;
 
 /// Width of the panels over several contacts, in units of the distance of the nearest singularity:
@@ -24,6 +24,8 @@ pub(crate) struct Bend<'b, T: Real> {
     /// Interval of the panels.
     on: Interval<T>,
     rows: Vec<OnceLock<Row<T>>>,
+    /// Steps of the height from direct sums to the panels, at their ends.
+    steps: Ends<OnceLock<T>>,
 }
 
 /// r and its integral on a panel.
@@ -48,7 +50,8 @@ impl<'b, T: Real> Bend<'b, T> {
         let count = super::at_least(if least > T::zero() { least } else { cells });
         let rows = (0..count.max(1)).map(|_| OnceLock::new()).collect();
         let loads = Loads::of(kernel, spreads);
-        Self { kernel: kernel.clone(), loads, on, rows }
+        let steps = Ends::from_fn(|_| OnceLock::new());
+        Self { kernel: kernel.clone(), loads, on, rows, steps }
     }
 
     /// Returns the kernel.
@@ -82,7 +85,7 @@ impl<'b, T: Real> Bend<'b, T> {
     pub fn height(&self, x: T) -> T {
         match self.row(x) {
             Some((row, z)) => value_at(&row.height, z),
-            None => self.loads.height(&self.kernel, x),
+            None => self.loads.height(&self.kernel, x) + self.step(x),
         }
     }
 
@@ -90,8 +93,21 @@ impl<'b, T: Real> Bend<'b, T> {
     pub fn both(&self, x: T) -> [T; 2] {
         match self.row(x) {
             Some((row, z)) => [value_at(&row.slope, z), value_at(&row.height, z)],
-            None => self.loads.both(&self.kernel, x),
+            None => {
+                let [slope, height] = self.loads.both(&self.kernel, x);
+                [slope, height + self.step(x)]
+            }
         }
+    }
+
+    /// Returns what the height outside the panels lacks, so that it has no step at their end.
+    fn step(&self, x: T) -> T {
+        let side = if x < self.on.left { Side::Left } else { Side::Right };
+        *self.steps[side].get_or_init(|| {
+            let end = self.on[side];
+            let known = self.row(end).map(|(row, z)| value_at(&row.height, z));
+            known.map_or(T::zero(), |known| known - self.loads.height(&self.kernel, end))
+        })
     }
 
     /// Returns the panel that contains x, and the place in it.

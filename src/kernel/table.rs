@@ -81,7 +81,8 @@ impl<T: Real> Table<T> {
     fn place(&self, distance: T) -> (usize, T) {
         let panel = self.ends.iter().position(|&end| distance <= end).unwrap_or(PANELS - 1);
         let [from, to] = self.panel(panel);
-        (panel, (distance - from - (to - distance)) / (to - from))
+        // An endless body is as far as the last panel.
+        (panel, ((distance.min(to) - from) - (to - distance.min(to))) / (to - from))
     }
 
     /// Returns Γ (0) or its integral (1) at a distance, not negative.

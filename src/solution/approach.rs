@@ -153,8 +153,9 @@ fn absolute_length<T: Real>(
         _ => None,
     };
     if length.is_none() || solved.several().is_some() {
-        let what = "the approach of several contacts, and of layers but one on a rigid base,";
-        solved.of_half_planes(what)?;
+        let quantity =
+            "the approach (but that of one contact with one layer on a rigid base, Base::Bonded)";
+        solved.of_half_planes(quantity)?;
     }
     Ok(length)
 }

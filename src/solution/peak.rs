@@ -81,10 +81,15 @@ impl<T: Real> Solved<'_, T> {
     }
 
     /// Finds the largest pressure, its derivative by the load, which is that at its place, and its
-    /// relative error.
-    pub fn peak_with_rate(&self, cost: &mut Cost) -> Result<[T; 3], ContactError<T>> {
+    /// relative error. The bend of the bodies changes with the load, or `is_held`.
+    pub fn peak_with_rate(
+        &self,
+        is_held: bool,
+        cost: &mut Cost,
+    ) -> Result<[T; 3], ContactError<T>> {
         let (x, Estimate { value, error }) = self.largest_pressure(cost)?;
         let rate = match self.several() {
+            _ if !is_held => LoadRates::of(*self)?.pressure(x)?,
             Some(_) => LoadRates::new(*self)?.pressure(x)?,
             None => T::frac_1_pi() / self.found.interval.chebyshev_weight(x),
         };

@@ -12,7 +12,7 @@
 //! the load is smaller in the beginning. On a base far softer than its coating the first one is far
 //! too narrow: then the kernel is.
 
-use super::by_load::{self, ByApproach, HalfWidth};
+use super::by_load::{self, ByApproach, HalfWidth, Peak};
 use super::{Contact, Control, Work, find_under};
 use crate::gap::Gap;
 use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
@@ -26,6 +26,9 @@ const MAX_SOLVES: usize = 120;
 
 /// ρ that ends the search, in units in the last place: the rounding of r.
 const LEAST: f64 = 16.0;
+
+/// Share of the last ρ that shows that it falls no more.
+const STALLED: f64 = 0.2;
 
 /// Least part of a correction that is tried.
 const LEAST_PART: f64 = 1.0 / 64.0;
@@ -108,6 +111,10 @@ pub(super) fn find<'b, T: Real>(
         (Err(ContactError::Solve(_)), Control::HalfWidth(half_width)) => {
             by_load::find_of(contact, Some(kernel), &HalfWidth, ("half-width", half_width), work)
         }
+        (Err(ContactError::Solve(_)), Control::PeakPressure(peak)) => {
+            let by = Peak::new(contact)?;
+            by_load::find_of(contact, Some(kernel), &by, ("peak pressure", peak), work)
+        }
         (found, _) => found,
     }
 }
@@ -175,6 +182,7 @@ struct Solve<'b, T: Real> {
 impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn find(&mut self) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
         let (mut is_checked, mut left) = (self.spreads.len() != 1, T::DERIVATIVE_ORDER);
+        let mut has_converged = false;
         for _ in 0..MAX_SOLVES {
             let solved = match self.solve(is_checked) {
                 Ok(solved) => solved,
@@ -186,16 +194,16 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             };
             let Some(Correction { spreads, residual }) = self.correct(&solved)? else { break };
             let is_whole = self.share >= T::one();
+            // Next to a kink the pressure, and so r, is known to fewer digits.
             let is_least = residual <= T::of(LEAST) * T::epsilon()
-                || residual <= T::epsilon().powf(T::of(0.75))
-                    && residual > T::of(0.2) * self.before;
+                || residual <= T::epsilon().sqrt() && residual > T::of(STALLED) * self.before;
             if is_least && is_whole && left == 0 {
                 if solved.is_checked {
                     let error = solved.found.error.map(|error| error + residual);
                     self.work.workspace.spreads = spreads;
                     return Ok((ContactState { error, ..solved.found }, solved.gap));
                 }
-                is_checked = true;
+                (is_checked, has_converged) = (true, true);
                 continue;
             }
             if is_least {
@@ -210,7 +218,8 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             if residual < T::of(NEAR) {
                 self.check_width(&solved.found, T::one())?;
             }
-            is_checked = spreads.len() > 1;
+            // A check may have found other contacts than the one that was sought.
+            is_checked = has_converged || spreads.len() > 1;
             self.step_to(spreads, residual);
             if !is_whole && residual < T::of(NEAR) {
                 self.more();

@@ -314,9 +314,18 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
 
     /// Returns the conclusion from a failed trial on its load.
     fn bound(&mut self, error: &ContactError<T>, load: T) -> Bound<T> {
-        use SolveError::{DomainTooShort, Falls, LiftsOff, NoEquilibrium};
+        use SolveError::{Bending, DomainTooShort, Falls, LiftsOff, NoEquilibrium};
         let (wanted, infinite) = (self.wanted, T::one() / T::zero());
         let unknown = |load: T, value: T| Point { load, value, rate: T::zero() };
+        if self.kernel.is_some() {
+            // What half-planes, or bodies with the bend of another load, bear is no bound.
+            return match error {
+                ContactError::Solve(Bending { .. } | DomainTooShort { .. }) => {
+                    Ok(ControlFlow::Continue(unknown(load, infinite)))
+                }
+                _ => Err(error.clone()),
+            };
+        }
         Ok(ControlFlow::Continue(match *error {
             ContactError::Solve(DomainTooShort { end, carried, half_width, peak, .. }) => {
                 let widest = Capacity { half_width, end, load: carried, peak };

@@ -7,11 +7,11 @@ mod refused;
 mod scenes;
 
 use crate::common::{Profile, graph, join, kernel_values};
-use linecontact::profile::Parabola;
+use linecontact::profile::{Line, Parabola};
 use linecontact::reference::Westergaard;
 use linecontact::{
-    Base, Contact, Control, Flat, Foundation, Layer, Material, PlaneState, RegularKernel, Solution,
-    Solver, SurfaceCompliance,
+    Base, Contact, Control, Edge, Flat, Foundation, Layer, Material, PlaneState, Reference,
+    References, RegularKernel, Solution, Solver, SurfaceCompliance,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -278,4 +278,40 @@ fn f32_solves_layers() {
     let contact = contact.materials(layer, Material::Rigid, PlaneState::Strain);
     let solution = contact.solve(Control::Load(1.342_633_9f32)).unwrap();
     assert!((solution.a() - 1.0).abs() < 2e-6, "{}", solution.a());
+}
+
+/// What half-planes bear, or bodies with the bend of another load, bounds no width and no peak.
+#[test]
+fn half_planes_do_not_bound_a_nip() {
+    let body: Profile = Box::new(Parabola::new(100.0, [-60.0, 60.0]).unwrap());
+    let contact = coated(&body, RIGID, layer(5.0, 0.48, 10.0, Base::Bonded));
+    let load = contact.solve(Control::Load(100.0)).unwrap();
+    let peak = load.peak().unwrap().pressure;
+    let again = contact.solve(Control::PeakPressure(peak)).unwrap();
+    assert!((again.load() / 100.0 - 1.0).abs() < 1e-12, "{}", again.load());
+    let wide = contact.solve(Control::HalfWidth(59.0)).unwrap();
+    let again = contact.solve(Control::Load(wide.load())).unwrap();
+    assert!((again.a() / 59.0 - 1.0).abs() < 1e-12, "{}", again.a());
+    let to = Reference::Depth(1.0);
+    let references = References { x: 0.0, lower: to, upper: to };
+    let approach = wide.approach(&references).unwrap().bodies;
+    let control = Control::Approach { approach, references };
+    let again = contact.solve(control).unwrap();
+    assert!((again.a() / 59.0 - 1.0).abs() < 1e-11, "{}", again.a());
+}
+
+/// A layer between two punches, each an endless flat with corners.
+#[test]
+fn flats_on_a_layer() {
+    let layer = layer(5.0, 0.48, 10.0, Base::Bonded);
+    let line = Line::new(0.0, [-3.0, 3.0]).unwrap();
+    let solve = |contact: Contact<'_, f64>| {
+        let contact = contact.materials(RIGID, layer, PlaneState::Strain);
+        let contact = contact.edges(Edge::Fixed(-1.0), Edge::Fixed(1.0));
+        let solution = contact.solve(Control::Load(1.0)).unwrap();
+        solution.pressure().unwrap().at(0.3).unwrap()
+    };
+    let expected = solve(Contact::new(&Flat, &line).unwrap());
+    let found = solve(Contact::new(&Flat, &Flat).unwrap());
+    assert!((found / expected - 1.0).abs() < 1e-13, "{found} {expected}");
 }

@@ -82,7 +82,7 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
         ),
         (
             ContactError::Evaluation(EvaluationError::HalfPlanesOnly { quantity: "the approach" }),
-            &["the approach", "half-planes only", "layer"],
+            &["the approach", "not known", "layer"],
         ),
         (
             ContactError::Input(InputError::InvalidLimits { interval: ON }),

@@ -23,7 +23,9 @@ impl<T: Real> Quantity<T> for HalfWidth {
             let widest = Capacity { half_width, end: on.right, load, peak };
             return Err(widest.too_wide(search.wanted));
         }
-        let rates = LoadRates::of(search.solved(found))?;
+        let solved = search.solved(found);
+        let is_held = search.kernel.is_none();
+        let rates = if is_held { LoadRates::new(solved)? } else { LoadRates::of(solved)? };
         Ok([half_width, T::of(0.5) * (rates.a + rates.b), T::zero()])
     }
 

@@ -31,10 +31,10 @@ impl<T: Real> Quantity<T> for Peak {
     }
 
     fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, '_, T>) -> Value<T> {
-        let ByLoad { contact, work, .. } = search;
-        let (gap, kappa, load) = (&contact.gap, contact.kappa, found.load);
+        let ByLoad { contact, kernel, gap, work, .. } = search;
+        let (kappa, load) = (contact.kappa, found.load);
         let solved = Solved { gap, integrator: &*work.integrator, kappa, found };
-        let peak = solved.peak_with_rate(work.cost);
+        let peak = solved.peak_with_rate(kernel.is_none(), work.cost);
         let Err(ContactError::Evaluation(EvaluationError::Singular { .. })) = peak else {
             return peak;
         };
