@@ -353,6 +353,14 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// Returns what the bodies have beside half-planes, if anything.
     pub(crate) fn kernel_of_bodies(&self) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
+        let is_layer = |foundation: &Foundation<T>| matches!(foundation, Foundation::Layer(_));
+        let has_layer = match &self.stiffness {
+            Stiffness::Materials(foundations, _) => foundations.iter().any(is_layer),
+            _ => false,
+        };
+        if !has_layer && self.beside.is_empty() {
+            return Ok(None);
+        }
         self.beside.kernel(self.elasticity()?.and_then(|bodies| Layers::of(&bodies)))
     }
 

@@ -61,8 +61,6 @@ pub struct Gap<'b, T: Real> {
     watch: Option<Watch<'b, T>>,
     /// Length of the narrowest feature to be seen, if the user gives one.
     resolution: Option<T>,
-    /// Bodies before the pressure bends them, and the bend.
-    before: Option<Arc<(Self, Arc<Bend<'b, T>>)>>,
 }
 
 /// Body, lent by the user or owned. (An owned body holds no references: otherwise a contact would
@@ -248,8 +246,8 @@ impl<'b, T: Real> Gap<'b, T> {
             return Err(InputError::NoCommonRange { lower, upper }.into());
         }
         let number = MADE.fetch_add(1, Ordering::Relaxed);
-        let (tilt, watch, resolution, before) = (T::zero(), None, None, None);
-        Ok(Self { bodies, inversion, range, number, convex, tilt, watch, resolution, before })
+        let (tilt, watch, resolution) = (T::zero(), None, None);
+        Ok(Self { bodies, inversion, range, number, convex, tilt, watch, resolution })
     }
 
     /// Returns the standard deviation that noise of measurements leaves in a sum of slopes of the
@@ -301,24 +299,30 @@ impl<'b, T: Real> Gap<'b, T> {
         } else {
             (Body::Upper, &mut upper, -kappa.recip())
         };
-        let bent = Bent::new(shape, bend, scale);
-        *shape =
-            Shape::Bent(Arc::new(bent.map_err(|source| InputError::Profile { body, source })?));
+        let bent = Bent::new(shape, self, bend, scale);
+        let bent = bent.map_err(|source| InputError::Profile { body, source })?;
+        *shape = Shape::Bent(Arc::new(bent));
         let Self { inversion, tilt, watch, resolution, .. } = *self;
-        // Convexity that the bodies declare says nothing of the bent ones.
-        let (convex, before) = (false, Some(Arc::new((self.clone(), bend.clone()))));
         let new = Self::new(lower, upper, inversion)?;
-        Ok(Self { convex, tilt, watch, resolution, before, ..new })
+        // Convexity that the bodies declare says nothing of the bent ones.
+        Ok(Self { convex: false, tilt, watch, resolution, ..new })
     }
 
     /// Returns the bend of the bodies, if they are bent.
     pub(crate) fn bend(&self) -> Option<&Bend<'b, T>> {
-        self.before.as_ref().map(|before| &*before.1)
+        self.bent_body().map(Bent::bend)
     }
 
     /// Returns the bodies before they are bent.
     pub(crate) fn before_bend(&self) -> &Self {
-        self.before.as_ref().map_or(self, |before| &before.0)
+        self.bent_body().map_or(self, Bent::before)
+    }
+
+    fn bent_body(&self) -> Option<&Bent<'b, T>> {
+        self.bodies.iter().find_map(|body| match &body.shape {
+            Shape::Bent(bent) => Some(&**bent),
+            _ => None,
+        })
     }
 
     pub(crate) fn tilt(&self) -> T {

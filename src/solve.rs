@@ -58,6 +58,9 @@ impl<T: Real> Work<'_, T> {
     }
 }
 
+/// Contact found, and its bodies if they are bent.
+type Found<'b, T> = (ContactState<T>, Option<Box<Gap<'b, T>>>);
+
 impl<'b, T: Real> Contact<'b, T> {
     /// Finds the contact under a control: its limits, and the load or the tilt if not given.
     /// [`Solution::pressure`] computes the pressure.
@@ -97,8 +100,8 @@ impl<'b, T: Real> Contact<'b, T> {
         let mut cost = Cost::default();
         let mut work =
             Work { integrator: &mut *integrator, workspace: &mut workspace, cost: &mut cost };
-        let (found, gap) = find(self, control, &mut work)?;
-        Ok(self.solution(Arc::new(integrator), found, cost, workspace.report, gap))
+        let (found, bent) = find(self, control, &mut work)?;
+        Ok(self.solution(Arc::new(integrator), found, cost, workspace.report, bent))
     }
 
     /// Returns the solution from the contact found.
@@ -108,8 +111,9 @@ impl<'b, T: Real> Contact<'b, T> {
         found: ContactState<T>,
         cost: Cost,
         report: Report,
-        gap: Gap<'b, T>,
+        bent: Option<Box<Gap<'b, T>>>,
     ) -> Solution<'b, T> {
+        let gap = bent.as_deref().unwrap_or(&self.gap).tilted(found.tilt);
         let kappa = self.kappa;
         let elasticity = self.elasticity().ok().flatten();
         Solution { gap, integrator, kappa, elasticity, found, cost, report }
@@ -122,7 +126,7 @@ pub(crate) fn find<'b, T: Real>(
     contact: &Contact<'b, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
-) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
+) -> Result<Found<'b, T>, ContactError<T>> {
     let found = contact.check(control).and_then(|()| find_checked(contact, control, work));
     *work.cost += work.integrator.cost();
     found.map_err(|error| error.with_stiffness(contact.has_default_stiffness()))
@@ -133,11 +137,14 @@ fn find_checked<'b, T: Real>(
     contact: &Contact<'b, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
-) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
+) -> Result<Found<'b, T>, ContactError<T>> {
     (work.workspace.report, work.workspace.cell_work) = (Report::new(), 0);
-    let (mut found, gap) = match bending::kernel(contact)? {
-        None => (find_under(contact, control, work)?, contact.gap.clone()),
-        Some(kernel) => bending::find(contact, &kernel, control, work)?,
+    let (mut found, bent) = match bending::kernel(contact)? {
+        None => (find_under(contact, control, work)?, None),
+        Some(kernel) => {
+            let (found, gap) = bending::find(contact, &kernel, control, work)?;
+            (found, Some(Box::new(gap)))
+        }
     };
     // A width may be less than the rounding of x, and its load less than any number.
     check(found.interval)?;
@@ -149,7 +156,8 @@ fn find_checked<'b, T: Real>(
         return Err(SolveError::Overflow { interval: found.interval }.into());
     }
     found.ends = contact.ends();
-    let (gap, integrator) = (gap.tilted(found.tilt), &mut *work.integrator);
+    let gap = bent.as_deref().unwrap_or(&contact.gap).tilted(found.tilt);
+    let integrator = &mut *work.integrator;
     if panels::several(integrator).is_none() {
         integrator.prepare(&gap, found.interval)?;
     }
@@ -159,7 +167,7 @@ fn find_checked<'b, T: Real>(
     if contact.certified {
         certify(Solved { gap: &gap, integrator, kappa: contact.kappa, found: &found })?;
     }
-    Ok((found, gap))
+    Ok((found, bent))
 }
 
 /// Finds the contact that meets a control.

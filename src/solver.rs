@@ -125,11 +125,11 @@ impl<T: Real> Solver<T> {
             Work { integrator: &mut *own, workspace: &mut self.workspace, cost: &mut cost };
         let found = find(contact, control, &mut work);
         *spent += cost;
-        let (found, gap) = found?;
+        let (found, bent) = found?;
         let one = std::slice::from_ref(&found.interval);
         self.workspace.keep(panels::several(own).map_or(one, Several::contacts));
         self.last = Some(number);
-        Ok(contact.solution(integrator.clone(), found, *spent, self.workspace.report, gap))
+        Ok(contact.solution(integrator.clone(), found, *spent, self.workspace.report, bent))
     }
 }
 

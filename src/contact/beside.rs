@@ -21,6 +21,11 @@ impl<T: Real> Default for Beside<'_, T> {
 }
 
 impl<'b, T: Real> Beside<'b, T> {
+    /// Tells whether the user has set nothing.
+    pub fn is_empty(&self) -> bool {
+        self.formula.is_none() && self.compliance.is_none()
+    }
+
     /// Returns the kernel of these and of the layers, if there is any.
     pub fn kernel(
         &self,
@@ -61,7 +66,7 @@ impl<'b, T: Real> Beside<'b, T> {
             }
             (None, _) => None,
         };
-        let is_of_layers = formula.is_none() && self.compliance.is_none();
+        let is_of_layers = self.is_empty();
         Ok(Some(Kernel { table, formula, is_of_layers, share: T::one() }))
     }
 }

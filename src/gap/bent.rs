@@ -1,6 +1,6 @@
 //! A body that the pressure bends.
 
-use super::Shape;
+use super::{Gap, Shape};
 use crate::kernel::Bend;
 use crate::{CurvePoint, ParametricProfile, Piece, ProfileError, Real};
 use std::sync::Arc;
@@ -9,6 +9,8 @@ use std::sync::Arc;
 /// known.
 pub(crate) struct Bent<'b, T: Real> {
     parts: Vec<Part<'b, T>>,
+    /// Both bodies before.
+    before: Gap<'b, T>,
 }
 
 /// Smooth piece of a bent body.
@@ -27,6 +29,7 @@ impl<'b, T: Real> Bent<'b, T> {
     /// Bends a body by a multiple of a bend.
     pub fn new(
         shape: &Shape<'b, T>,
+        before: &Gap<'b, T>,
         bend: &Arc<Bend<'b, T>>,
         scale: T,
     ) -> Result<Self, ProfileError<T>> {
@@ -46,7 +49,16 @@ impl<'b, T: Real> Bent<'b, T> {
             Ok(Part { shape: shape.clone(), index, bend: bend.clone(), scale, k, ends })
         };
         let parts = (0..=last).map(part).collect::<Result<_, _>>()?;
-        Ok(Self { parts })
+        Ok(Self { parts, before: before.clone() })
+    }
+
+    /// Returns both bodies before.
+    pub fn before(&self) -> &Gap<'b, T> {
+        &self.before
+    }
+
+    pub fn bend(&self) -> &Bend<'b, T> {
+        &self.parts[0].bend
     }
 }
 

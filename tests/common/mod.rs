@@ -52,9 +52,9 @@ fn number(v: &Value) -> f64 {
     v.as_str().expect("a decimal in a string").parse().expect("a number")
 }
 
-/// Returns numbers of a layer from `kernels.json`.
+/// Returns numbers of a layer from `kernels/layers.json`.
 pub fn kernel_values<const N: usize>(name: &str, keys: [&str; N]) -> [f64; N] {
-    let json = data("kernels");
+    let json = data("kernels/layers");
     let layers = "layers: R = h = a = E1 = 1, rigid parabola, nu .3 unless said";
     keys.map(|key| number(&json[layers][name][key]))
 }
