@@ -244,8 +244,8 @@ fn contacts_end_at_corners_inside_the_bodies() {
 
 #[test]
 fn contacts_end_at_the_corners_of_dimples() {
-    // As yet, a solver that comes from 0.6 of the load of seed 3 misses a contact beside a corner, of
-    // 5e-4 of the whole width.
+    // As yet a solver that comes from 0.6 of the load of seed 3 misses a contact beside a corner,
+    // of 5e-4 of the whole width.
     solve_all(scenes(100).filter(|&seed| seed != 3), Scene::with_dimples);
 }
 
