@@ -232,7 +232,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (
         lambda: solved(resolution=-1.0),
         "InvalidResolutionError",
-        {"resolution": -1.0, "least": 0.0},
+        {"resolution": -1.0, "least": 6.357828776041667e-06},
     ),
     (
         lambda: solved(edges=(lc.Edge.adhesive(-1.0), lc.Edge.adhesive(-1.0))),
@@ -418,9 +418,9 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     # Questions.
     (lambda: solved().approach(TO), "NoMaterialsError", {}),
     (
-        lambda: layered(1.0).solve(load=100.0).approach(TO),
+        lambda: layered(1.0).solve(load=100.0).uncertainty(),
         "HalfPlanesOnlyError",
-        {"quantity": "the approach"},
+        {"quantity": "the uncertainty"},
     ),
     (
         lambda: material().solve(load=100.0).approach(TO._replace(upper=lc.Reference.disc(-1.0))),

@@ -153,8 +153,7 @@ fn absolute_length<T: Real>(
         _ => None,
     };
     if length.is_none() || solved.several().is_some() {
-        let quantity =
-            "the approach (but that of one contact with one layer on a rigid base, Base::Bonded)";
+        let quantity = "the approach (but that of one contact with one layer on a rigid base)";
         solved.of_half_planes(quantity)?;
     }
     Ok(length)
