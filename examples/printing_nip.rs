@@ -124,7 +124,7 @@ fn shade(i: usize, of: usize) -> drawing::RGBColor {
 }
 
 fn of_widths(widths: &[(f64, f64, f64)]) -> Panel {
-    let axes = (("thickness of the cover / mm", [0.3, 1.8]), ("nip width / mm", [0.0, 60.0]));
+    let axes = (("thickness of the cover / mm", [0.3, 1.8]), ("nip width / mm", [0.0, 80.0]));
     let panel = Panel::new("Nip width, and that of a half-plane (dashed)", axes.0, axes.1)
         .size(400, 220)
         .powers(true, false)

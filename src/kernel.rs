@@ -140,7 +140,9 @@ impl<T: Real> Kernel<'_, T> {
     /// of any pressure that reach r.
     ///
     /// With the singularity at a distance c, r has singularities c above the ends of the interval,
-    /// and its series converges with the root of L/c.
+    /// and its series converges with the root of L/c; so many terms leave 1e-15 of it for 2L/c from
+    /// 0.1 to 90, and so few a correction of 1e-4 to 1e-6 (found by trial). Coefficients beyond the
+    /// most meet only wavenumbers at which K - 1 is below rounding.
     pub fn terms(&self, on: Interval<T>) -> [usize; 3] {
         let ratio = self.ratio(on);
         let sum = |first: f64, by_root: f64, by_ratio: f64| {

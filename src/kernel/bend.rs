@@ -45,10 +45,9 @@ impl<'b, T: Real> Bend<'b, T> {
             right: ends.fold(T::min_value().unwrap_or(T::zero()), |x, on| x.max(on.right)) + margin,
         };
         // Over one contact a single series converges with the root of its width.
-        let least = if spreads.len() == 1 { T::one() } else { T::zero() };
         let cells = ((on.right - on.left) / (T::of(WIDTH) * kernel.distance())).component(0);
-        let count = super::at_least(if least > T::zero() { least } else { cells });
-        let rows = (0..count.max(1)).map(|_| OnceLock::new()).collect();
+        let count = if spreads.len() == 1 { 1 } else { super::at_least(cells).max(1) };
+        let rows = (0..count).map(|_| OnceLock::new()).collect();
         let loads = Loads::of(kernel, spreads);
         let steps = Ends::from_fn(|_| OnceLock::new());
         Self { kernel: kernel.clone(), loads, on, rows, steps }
@@ -66,11 +65,6 @@ impl<'b, T: Real> Bend<'b, T> {
         let [_, terms, _] = self.kernel.terms(of.on);
         let heights = places(of.on, terms).map(|[x, _]| loads.height(&self.kernel, x));
         heights.fold(T::zero(), |sum, height| sum + height) / T::count(terms)
-    }
-
-    /// Returns K(x, s).
-    pub fn kernel(&self, x: T, s: T) -> T {
-        self.kernel.slope(x, s)
     }
 
     /// Returns r at x.

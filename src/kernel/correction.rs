@@ -58,12 +58,18 @@ impl<T: Real> Correction<T> {
             let on = spread.on;
             let [terms, ..] = kernel.terms(on);
             let at: Vec<T> = super::spread::places(on, terms).map(|[x, _]| x).collect();
-            let new: Vec<T> = at.iter().map(|&x| loads.slope(kernel, x)).collect();
-            if let Some(i) = new.iter().position(|r| !r.is_finite()) {
+            let new: Vec<[T; 2]> = at.iter().map(|&x| loads.both(kernel, x)).collect();
+            // A comparison loses NaN.
+            let is_known = |sums: &[T; 2]| sums.iter().all(|sum| sum.is_finite());
+            if let Some(i) = new.iter().position(|sums| !is_known(sums)) {
                 return Err(at[i]);
             }
+            let new: Vec<T> = new.iter().map(|&[slope, _]| slope).collect();
             let old = |x: T| bend.map_or(T::zero(), |bend| bend.slope(x));
             let rho: Vec<T> = new.iter().zip(&at).map(|(&new, &x)| new - old(x)).collect();
+            if let Some(i) = rho.iter().position(|rho| !rho.is_finite()) {
+                return Err(at[i]);
+            }
             let size = |row: &[T]| row.iter().fold(T::zero(), |most, a| most.max(a.abs()));
             // The half-planes' part is about as large as the sum of the coefficients.
             let half_planes = spread.q.iter().fold(T::zero(), |sum, q| sum + q.abs());

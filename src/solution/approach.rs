@@ -67,7 +67,8 @@ impl<T: Real> Solution<'_, T> {
     ///
     /// It takes no longer than some ten pressures, and no evaluation with
     /// [`Panels`](crate::Panels). Several contacts take longer, as do depths of less than three
-    /// half-widths below a contact with breakpoints.
+    /// half-widths below a contact with breakpoints. With a layer the contact is sampled once more,
+    /// before the bend.
     ///
     /// ```
     /// use linecontact::profile::Parabola;

@@ -42,7 +42,8 @@ impl<T: Real> Solution<'_, T> {
         // The slope of the bent bodies has r as the solve has found it.
         let bent = match self.gap.bend() {
             Some(bend) => {
-                let kernel = |distance: T, strength: T| [strength * bend.kernel(x, x - distance)];
+                let own = bend.kernel_of_bodies();
+                let kernel = |distance: T, strength: T| [strength * own.slope(x, x - distance)];
                 integrals.over(x, kernel)?[0] - bend.slope(x)
             }
             None => T::zero(),

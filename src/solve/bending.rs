@@ -107,15 +107,26 @@ pub(super) fn find<'b, T: Real>(
     }
     .find();
     match (found, control) {
+        (Err(error), _) if ends(&error) => Err(error),
         // The same bodies without the kernel, or with that of another load, may not be as wide.
-        (Err(ContactError::Solve(_)), Control::HalfWidth(half_width)) => {
+        (Err(_), Control::HalfWidth(half_width)) => {
             by_load::find_of(contact, Some(kernel), &HalfWidth, ("half-width", half_width), work)
         }
-        (Err(ContactError::Solve(_)), Control::PeakPressure(peak)) => {
+        (Err(_), Control::PeakPressure(peak)) => {
             let by = Peak::new(contact)?;
             by_load::find_of(contact, Some(kernel), &by, ("peak pressure", peak), work)
         }
         (found, _) => found,
+    }
+}
+
+/// Tells whether a search ends with this error: no other bend would help.
+fn ends<T: Real>(error: &ContactError<T>) -> bool {
+    use SolveError::{BudgetSpent, Cancelled};
+    match error {
+        ContactError::Solve(failed) => matches!(failed, Cancelled { .. } | BudgetSpent { .. }),
+        ContactError::Input(fault) => !matches!(fault, InputError::LayerTooThin { .. }),
+        ContactError::Evaluation(_) => true,
     }
 }
 
@@ -194,9 +205,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             };
             let Some(Correction { spreads, residual }) = self.correct(&solved)? else { break };
             let is_whole = self.share >= T::one();
-            // Next to a kink the pressure, and so r, is known to fewer digits.
+            // Next to a kink r is known to fewer digits.
             let is_least = residual <= T::of(LEAST) * T::epsilon()
-                || residual <= T::epsilon().sqrt() && residual > T::of(STALLED) * self.before;
+                || residual <= T::epsilon().powf(T::of(0.75))
+                    && residual > T::of(STALLED) * self.before;
             if is_least && is_whole && left == 0 {
                 if solved.is_checked {
                     let error = solved.found.error.map(|error| error + residual);
@@ -260,22 +272,11 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
 
     /// Goes on from a solve that failed: with a smaller load, or with less of the correction.
     fn retreat(&mut self, error: ContactError<T>) -> Result<(), ContactError<T>> {
-        use SolveError::{BudgetSpent, Cancelled};
-        let ends = match &error {
-            ContactError::Solve(failed) => matches!(failed, Cancelled { .. } | BudgetSpent { .. }),
-            ContactError::Input(fault) => !matches!(fault, InputError::LayerTooThin { .. }),
-            ContactError::Evaluation(_) => true,
-        };
-        if ends || self.target.is_empty() && load(self.control).is_none() {
+        if ends(&error) || self.target.is_empty() && load(self.control).is_none() {
             return Err(error);
         }
         if !self.target.is_empty() {
             return self.less().map(|_| ());
-        }
-        if !self.spreads.is_empty() {
-            // The pressures of the last solve were those of another scene.
-            self.spreads.clear();
-            return Ok(());
         }
         // The contact of half-planes is far wider than that of a layer may be.
         let fault = self.fault.take().unwrap_or(error);
@@ -284,6 +285,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             return Err(fault);
         }
         self.fault = Some(fault);
+        self.spreads.clear();
         Ok(())
     }
 
@@ -387,7 +389,9 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         let spreads = contacts.iter().enumerate().map(spread);
         let spreads = spreads.collect::<Result<Vec<_>, ContactError<T>>>()?;
         let correction = Correction::new(&self.kernel, solved.gap.bend(), spreads, kept);
-        correction
-            .map_err(|at| InputError::Kernel { what: "K(x, s) is not finite at x", at }.into())
+        correction.map_err(|at| {
+            InputError::Kernel { what: "K(x, s), or its integral by x, is not finite at x", at }
+                .into()
+        })
     }
 }

@@ -315,3 +315,32 @@ fn flats_on_a_layer() {
     let found = solve(Contact::new(&Flat, &Flat).unwrap());
     assert!((found / expected - 1.0).abs() < 1e-13, "{found} {expected}");
 }
+
+/// Checks find other contacts than the one that was sought; r of a kink on a thin layer is known to
+/// fewer digits; a solver comes from other bodies.
+#[test]
+fn searches_end() {
+    let waves = graph(-4.6, 4.6, |x| {
+        let (u, (sin, cos)) = (x - 0.26, (9.438 * x + 1.189).sin_cos());
+        [u * u / 964.0 + 1.45e-4 * cos, u / 482.0 - 1.45e-4 * 9.438 * sin]
+    });
+    let coating = layer(0.1288, 0.3638, 2.0246, half_plane(0.02253, 0.435));
+    let contact = coated(&waves, RIGID, coating);
+    assert!(contact.solve(Control::Load(7.1635e-4)).unwrap().report().is_checked());
+
+    let side = |from: f64, to: f64, slope: f64| graph(from, to, move |x| [slope * x, slope]);
+    let wedge = join(vec![side(-3.0, 0.0, -0.3), side(0.0, 3.0, 0.3)]);
+    let contact = coated(&wedge, layer(1.0, 0.3, 0.03, Base::Bonded), RIGID);
+    let solution = contact.solve(Control::Load(0.4)).unwrap();
+    assert!(solution.limits_error().unwrap() < 1e-10);
+
+    let mut solver = Solver::new();
+    let rubber = layer(1.0, 0.3, 1.0, Base::Bonded);
+    for centre in [-2.0, 2.0] {
+        let body = graph(-6.0, 6.0, move |x| [0.5 * (x - centre).powi(2), x - centre]);
+        let contact = coated(&body, rubber, RIGID);
+        let warm = solver.solve(&contact, Control::Load(0.5)).unwrap();
+        let cold = contact.solve(Control::Load(0.5)).unwrap();
+        assert!((warm.a() - cold.a()).abs() < 1e-14, "{centre}");
+    }
+}

@@ -5,9 +5,12 @@ use crate::common::Profile;
 use linecontact::search::Brent;
 use linecontact::{
     Base, Contact, ContactError, Control, Edge, EdgePressure, EvaluationError, Flat, InputError,
-    Material, Midpoint, PlaneState, Reference, References, RegularKernel, Shear, SurfaceCompliance,
+    Material, Midpoint, PlaneState, Reference, References, RegularKernel, Shear, SolveError,
+    SurfaceCompliance,
 };
+use std::ops::ControlFlow;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn refusal(contact: &Contact<'_, f64>, control: Control<f64>) -> &'static str {
     match contact.solve(control).unwrap_err() {
@@ -97,15 +100,17 @@ impl SurfaceCompliance<f64> for Faulty {
 }
 
 /// Kernel with a fault.
-struct NotANumber;
+struct NotANumber {
+    is_slope: bool,
+}
 
 impl RegularKernel<f64> for NotANumber {
     fn slope(&self, x: f64, _: f64) -> f64 {
-        if x > 0.1 { f64::NAN } else { 0.0 }
+        if self.is_slope && x > 0.1 { f64::NAN } else { 0.0 }
     }
 
-    fn height(&self, _: f64, _: f64) -> f64 {
-        0.0
+    fn height(&self, x: f64, _: f64) -> f64 {
+        if !self.is_slope && x > 0.1 { f64::NAN } else { 0.0 }
     }
 
     fn nearest_singularity(&self) -> f64 {
@@ -133,8 +138,28 @@ fn faulty_kernels_are_refused() {
         let faulty = Arc::new(Faulty { excess: 0.5, decay });
         assert!(fault(contact.clone().compliance(faulty)).contains("decay"));
     }
-    assert_eq!(fault(contact.clone().kernel(&NotANumber)), "K(x, s) is not finite at x");
+    for is_slope in [true, false] {
+        let kernel = NotANumber { is_slope };
+        assert!(fault(contact.clone().kernel(&kernel)).contains("not finite at x"));
+    }
     // What is plain stays so: the kernel of nothing is not asked for.
     let plain = contact.clone().materials(RIGID, Material::elastic(1.0, 0.3), PlaneState::Strain);
     assert!(plain.solve(Control::Load(0.5)).unwrap().load_rates().is_ok());
+}
+
+/// A solve that is cancelled ends, under each control: no other way is tried.
+#[test]
+fn a_cancelled_solve_ends() {
+    let body = parabola(6.0);
+    for control in [Control::Load(0.5), Control::HalfWidth(0.7), Control::PeakPressure(0.4)] {
+        let asked = AtomicUsize::new(0);
+        let once = |_, _| match asked.fetch_add(1, Ordering::Relaxed) {
+            3 => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        };
+        let contact = coated(&body, layer(1.0, 0.3, 1.0, Base::Bonded), RIGID).watch(&once);
+        let error = contact.solve(control).map(|_| ()).unwrap_err();
+        let is_cancelled = matches!(error, ContactError::Solve(SolveError::Cancelled { .. }));
+        assert!(is_cancelled, "{control:?}: {error}");
+    }
 }
