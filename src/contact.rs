@@ -217,6 +217,42 @@ impl<'b, T: Real> Contact<'b, T> {
         self
     }
 
+    /// Makes both bodies repeat with this period along x. Each is described over one period, with
+    /// the same height and slope at both ends, or is a [`Flat`](crate::Flat); two such periods must
+    /// overlap. The load, its derivatives and the moment are those of one period.
+    ///
+    /// Results are those of one period from a place that the solve chooses between two contacts, so
+    /// a contact may go on beyond the end of the description. Pressures and gaps may be asked for
+    /// at any x. The [approach](crate::Solution::approach) is that of the mean planes of both
+    /// surfaces since first touch, without references. The edges must be free.
+    ///
+    /// ```
+    /// use linecontact::{Contact, Control, Curve, CurvePoint, Flat};
+    /// use std::f64::consts::{PI, TAU};
+    ///
+    /// // Waves of height 0.04 and length 1: Westergaard's contact.
+    /// let waves = Curve::new([-0.5, 0.5], |x: f64| {
+    ///     let (sin, cos) = (TAU * x).sin_cos();
+    ///     CurvePoint { x, y: 0.02 * (1.0 - cos), dx: 1.0, dy: 0.02 * TAU * sin }
+    /// });
+    /// let contact = Contact::new(&Flat, &waves)?.contact_modulus(1.0).period(1.0);
+    /// let solution = contact.solve(Control::Load(0.01))?;
+    /// let a = (0.01f64 / (0.02 * PI)).sqrt().asin() / PI;
+    /// assert!((solution.a() - a).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn period(mut self, period: T) -> Self {
+        self.beside = Beside { period: Some(period), table: OnceLock::new(), ..self.beside };
+        self
+    }
+
+    /// Returns the scene with its bodies repeated, if they have a period.
+    pub(crate) fn repeated(&self) -> Result<Option<Self>, ContactError<T>> {
+        let Some(period) = self.beside.period else { return Ok(None) };
+        Ok(Some(Self { gap: self.gap.repeated(period)?, ..self.clone() }))
+    }
+
     /// Sets the conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
     #[must_use]
     pub fn edges(self, left: Edge<T>, right: Edge<T>) -> Self {
@@ -387,6 +423,11 @@ impl<'b, T: Real> Contact<'b, T> {
             check(start)?;
         }
         self.gap.check_resolution(T::zero())?;
+        if let Some(period) = self.beside.period
+            && !(period.is_finite() && period > T::zero())
+        {
+            return Err(InputError::InvalidPeriod { period }.into());
+        }
         if self.edge_pressure.is_some() && !matches!(control, Control::Load(_)) {
             return Err(InputError::EdgePressureLoad.into());
         }
@@ -413,7 +454,12 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// Returns the ends of the bodies. A corner counts as an end.
     pub(crate) fn ends(&self) -> Ends<T> {
-        let [left, right] = self.gap.range();
+        self.ends_of(&self.gap)
+    }
+
+    /// Returns the ends of the bodies as they are in a gap.
+    pub(crate) fn ends_of(&self, gap: &Gap<'_, T>) -> Ends<T> {
+        let [left, right] = gap.range();
         let corner = |edge: Edge<T>| match edge {
             Edge::Fixed(x) | Edge::FreeUntil(x) if self.edge_pressure.is_none() => Some(x),
             _ => None,

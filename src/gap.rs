@@ -10,14 +10,15 @@
 //! last point. The panels ([`quadrature`](crate::quadrature)) need the slope only *near* given
 //! abscissae, and take points close to them: see `sample_near.rs`.
 
-mod bent;
+mod changed;
 mod noise;
+mod periodic;
 mod resolution;
 mod sample_near;
 mod sampler;
 mod survey;
 
-use bent::Bent;
+use changed::Changed;
 pub(crate) use sample_near::{CurveSample, SampleCache, sample_near};
 pub use sampler::Sampler;
 pub(crate) use survey::{Asked, Guides, LowPoint, MAX_NEAR_UNCERTAINTY, Survey, crossing};
@@ -61,6 +62,8 @@ pub struct Gap<'b, T: Real> {
     watch: Option<Watch<'b, T>>,
     /// Length of the narrowest feature to be seen, if the user gives one.
     resolution: Option<T>,
+    /// Period of both bodies.
+    period: Option<T>,
 }
 
 /// Body, lent by the user or owned. (An owned body holds no references: otherwise a contact would
@@ -69,7 +72,7 @@ pub struct Gap<'b, T: Real> {
 pub(crate) enum Shape<'b, T: Real> {
     Lent(&'b dyn ParametricProfile<T>),
     Owned(Arc<dyn ParametricProfile<T>>),
-    Bent(Arc<Bent<'b, T>>),
+    Changed(Arc<Changed<'b, T>>),
 }
 
 impl<T: Real> Shape<'_, T> {
@@ -77,7 +80,7 @@ impl<T: Real> Shape<'_, T> {
         match self {
             Self::Lent(profile) => *profile,
             Self::Owned(profile) => &**profile,
-            Self::Bent(bent) => &**bent,
+            Self::Changed(body) => &**body,
         }
     }
 }
@@ -117,6 +120,12 @@ impl<'b, T: Real> Surface<'b, T> {
         let piece = self.joined.and_then(|_| profile.piece(index));
         // A missing piece is noticed where it is used: the first is not in its place.
         piece.unwrap_or(Piece { curve: profile, k: self.k, ends: self.ends })
+    }
+
+    /// Tells whether a body has no ends.
+    fn is_endless(&self) -> bool {
+        let [first, last] = self.extent();
+        T::max_value().is_some_and(|most| last - first > T::of(0.125) * most)
     }
 
     fn extent(&self) -> [T; 2] {
@@ -236,7 +245,6 @@ impl<'b, T: Real> Gap<'b, T> {
         upper: Shape<'b, T>,
         inversion: &'b dyn LimitSearch<T>,
     ) -> Result<Self, ContactError<T>> {
-        static MADE: AtomicU64 = AtomicU64::new(1);
         let convexity = [&lower, &upper].map(|shape| shape.profile().convexity());
         let convex = Convexity::gap_is_convex(convexity[0], convexity[1]);
         let bodies = [Surface::new(Body::Lower, lower)?, Surface::new(Body::Upper, upper)?];
@@ -245,9 +253,8 @@ impl<'b, T: Real> Gap<'b, T> {
         if range[0] >= range[1] {
             return Err(InputError::NoCommonRange { lower, upper }.into());
         }
-        let number = MADE.fetch_add(1, Ordering::Relaxed);
-        let (tilt, watch, resolution) = (T::zero(), None, None);
-        Ok(Self { bodies, inversion, range, number, convex, tilt, watch, resolution })
+        let (number, tilt, watch, resolution, period) = (number(), T::zero(), None, None, None);
+        Ok(Self { bodies, inversion, range, number, convex, tilt, watch, resolution, period })
     }
 
     /// Returns the standard deviation that noise of measurements leaves in a sum of slopes of the
@@ -292,35 +299,33 @@ impl<'b, T: Real> Gap<'b, T> {
     pub(crate) fn bent(&self, bend: &Arc<Bend<'b, T>>, kappa: T) -> Result<Self, ContactError<T>> {
         let [mut lower, mut upper] = [0, 1].map(|i| self.bodies[i].shape.clone());
         // An endless flat stays one: it costs nothing.
-        let [first, last] = self.bodies[Body::Upper as usize].extent();
-        let is_endless = T::max_value().is_some_and(|most| last - first > T::of(0.125) * most);
-        let (body, shape, scale) = if is_endless {
+        let (body, shape, scale) = if self.bodies[Body::Upper as usize].is_endless() {
             (Body::Lower, &mut lower, kappa.recip())
         } else {
             (Body::Upper, &mut upper, -kappa.recip())
         };
-        let bent = Bent::new(shape, self, bend, scale);
+        let bent = Changed::bent(shape, self, bend, scale);
         let bent = bent.map_err(|source| InputError::Profile { body, source })?;
-        *shape = Shape::Bent(Arc::new(bent));
-        let Self { inversion, tilt, watch, resolution, .. } = *self;
+        *shape = Shape::Changed(Arc::new(bent));
+        let Self { inversion, range, tilt, watch, resolution, period, .. } = *self;
         let new = Self::new(lower, upper, inversion)?;
         // Convexity that the bodies declare says nothing of the bent ones.
-        Ok(Self { convex: false, tilt, watch, resolution, ..new })
+        Ok(Self { range, convex: false, tilt, watch, resolution, period, ..new })
     }
 
     /// Returns the bend of the bodies, if they are bent.
     pub(crate) fn bend(&self) -> Option<&Bend<'b, T>> {
-        self.bent_body().map(Bent::bend)
+        self.changed_bodies().find_map(Changed::bend)
     }
 
     /// Returns the bodies before they are bent.
     pub(crate) fn before_bend(&self) -> &Self {
-        self.bent_body().map_or(self, Bent::before)
+        self.changed_bodies().find_map(Changed::before).unwrap_or(self)
     }
 
-    fn bent_body(&self) -> Option<&Bent<'b, T>> {
-        self.bodies.iter().find_map(|body| match &body.shape {
-            Shape::Bent(bent) => Some(&**bent),
+    fn changed_bodies(&self) -> impl Iterator<Item = &Changed<'b, T>> {
+        self.bodies.iter().filter_map(|body| match &body.shape {
+            Shape::Changed(body) => Some(&**body),
             _ => None,
         })
     }
@@ -482,6 +487,12 @@ impl<'b, T: Real> Gap<'b, T> {
     pub(crate) fn number(&self) -> u64 {
         self.number
     }
+}
+
+/// Returns a number that no other gap has.
+fn number() -> u64 {
+    static MADE: AtomicU64 = AtomicU64::new(1);
+    MADE.fetch_add(1, Ordering::Relaxed)
 }
 
 impl<T: Real> std::fmt::Debug for Gap<'_, T> {

@@ -18,12 +18,14 @@
 mod bend;
 mod correction;
 mod layers;
+mod periodic;
 mod spread;
 mod table;
 
 pub(crate) use bend::Bend;
 pub(crate) use correction::{Correction, Kept, punch};
 pub(crate) use layers::Layers;
+pub(crate) use periodic::Periodic;
 pub(crate) use spread::Spread;
 pub(crate) use table::Table;
 
@@ -85,6 +87,8 @@ impl<T: Real> Formula<'_, T> {
 pub(crate) struct Kernel<'b, T: Real> {
     pub table: Option<Arc<Table<T>>>,
     pub formula: Option<Formula<'b, T>>,
+    /// The other contacts of a row, one in each period.
+    pub row: Option<Periodic<T>>,
     /// Flag: all of it is layers.
     pub is_of_layers: bool,
     /// Factor of both: less than 1 on the way to a solution.
@@ -94,7 +98,12 @@ pub(crate) struct Kernel<'b, T: Real> {
 impl<T: Real> Kernel<'_, T> {
     fn parts(&self) -> impl Iterator<Item = &dyn RegularKernel<T>> {
         let table = self.table.as_deref().map(|table| table as &dyn RegularKernel<T>);
-        table.into_iter().chain(self.formula.as_ref().map(Formula::kernel))
+        table.into_iter().chain(self.formulas())
+    }
+
+    fn formulas(&self) -> impl Iterator<Item = &dyn RegularKernel<T>> {
+        let row = self.row.as_ref().map(|row| row as &dyn RegularKernel<T>);
+        row.into_iter().chain(self.formula.as_ref().map(Formula::kernel))
     }
 
     /// Returns K(x, s).
@@ -114,6 +123,34 @@ impl<T: Real> Kernel<'_, T> {
         Some(table.absolute_length(share))
     }
 
+    /// Returns the period of half-planes in a row of contacts.
+    pub fn period_of_half_planes(&self) -> Option<T> {
+        let is_alone = self.table.is_none() && self.formula.is_none();
+        self.row.as_ref().filter(|_| is_alone).map(|row| row.period)
+    }
+
+    /// Takes the distance of the next period for contacts in an interval of the range at hand, and
+    /// returns it.
+    pub fn in_range(&mut self, range: [T; 2], on: Interval<T>) -> T {
+        let Some(row) = &mut self.row else { return self.distance() };
+        let distance = (on.left - range[0]).min(range[1] - on.right);
+        row.distance = distance.max(T::of(LEAST_DISTANCE) * row.period);
+        distance
+    }
+
+    /// Returns the compliance of the surfaces by wavenumber.
+    pub fn compliance(&self, wavenumber: T) -> T {
+        let table = self.table.as_ref();
+        T::one() + table.map_or(T::zero(), |table| table.excess(wavenumber))
+    }
+
+    /// Returns the distance of the nearest singularity of a layer, or of a formula.
+    pub fn layer_distance(&self) -> Option<T> {
+        let table = self.table.as_deref().map(RegularKernel::nearest_singularity);
+        let formula = self.formula.as_ref().map(|formula| formula.kernel().nearest_singularity());
+        table.into_iter().chain(formula).reduce(T::min)
+    }
+
     /// Returns the distance of the nearest singularity of the kernel.
     pub fn distance(&self) -> T {
         let distances = self.parts().map(RegularKernel::nearest_singularity);
@@ -124,8 +161,7 @@ impl<T: Real> Kernel<'_, T> {
     fn sums<const N: usize>(&self, which: [usize; N], x: T, loads: &[[T; 2]]) -> [T; N] {
         let table = self.table.as_ref();
         let mut sums = table.map_or([T::zero(); N], |table| table.sums(which, x, loads));
-        if let Some(formula) = &self.formula {
-            let kernel = formula.kernel();
+        for kernel in self.formulas() {
             for &[s, load] in loads {
                 for (sum, which) in sums.iter_mut().zip(which) {
                     let value = if which == 0 { kernel.slope(x, s) } else { kernel.height(x, s) };
@@ -169,6 +205,9 @@ impl<T: Real> Kernel<'_, T> {
 fn at_least<T: Real>(value: T) -> usize {
     (0..MAX_TERMS).find(|&n| T::count(n) >= value).unwrap_or(MAX_TERMS)
 }
+
+/// Least distance of the next period that is taken, by the period: on the way to a solution.
+const LEAST_DISTANCE: f64 = 2e-4;
 
 /// Largest number of coefficients of a pressure.
 const MAX_TERMS: usize = 2100;

@@ -77,6 +77,9 @@ pub struct Scene<T> {
     /// Narrowest feature to be seen, a length: [`Contact::resolution`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub resolution: Option<T>,
+    /// Period of both bodies along x: [`Contact::period`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period: Option<T>,
     /// True if each solution must be proven: [`Contact::certified`].
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub certified: bool,
@@ -146,6 +149,7 @@ impl<T: Real> Scene<T> {
             stiffness: None,
             edges: None,
             resolution: None,
+            period: None,
             certified: false,
             references: None,
             controls: Vec::new(),
@@ -173,6 +177,9 @@ impl<T: Real> Scene<T> {
         }
         if let Some(length) = self.resolution {
             contact = contact.resolution(length);
+        }
+        if let Some(period) = self.period {
+            contact = contact.period(period);
         }
         Ok(contact.certified(self.certified))
     }

@@ -139,7 +139,10 @@ fn find_checked<'b, T: Real>(
     work: &mut Work<'_, T>,
 ) -> Result<Found<'b, T>, ContactError<T>> {
     (work.workspace.report, work.workspace.cell_work) = (Report::new(), 0);
-    let (mut found, bent) = match bending::kernel(contact)? {
+    let kernel = bending::kernel(contact, control)?;
+    let repeated = contact.repeated()?;
+    let contact = repeated.as_ref().unwrap_or(contact);
+    let (mut found, bent) = match kernel {
         None => (find_under(contact, control, work)?, None),
         Some(kernel) => {
             let (found, gap) = bending::find(contact, &kernel, control, work)?;
@@ -155,7 +158,7 @@ fn find_checked<'b, T: Real>(
     if !known && found.adhesive == Ends::both(false) {
         return Err(SolveError::Overflow { interval: found.interval }.into());
     }
-    found.ends = contact.ends();
+    found.ends = contact.ends_of(bent.as_deref().unwrap_or(&contact.gap));
     let gap = bent.as_deref().unwrap_or(&contact.gap).tilted(found.tilt);
     let integrator = &mut *work.integrator;
     if panels::several(integrator).is_none() {

@@ -137,6 +137,8 @@ table! {
     InvalidModulus { modulus };
     InvalidLimits { interval };
     InvalidThickness { body, thickness };
+    InvalidPeriod { period };
+    NotPeriodic { body, what, ends };
     Kernel { what, at };
     LayerTooThin { ratio, limit };
     KernelNotSupported { why };
@@ -167,6 +169,7 @@ table! {
 table! {
     SolveError, "", SOLVE, transparent: [];
     Bending { residual, solves, share };
+    CompleteContact { load, complete };
     Cancelled { evaluations, last };
     OutsideBodies { x, range };
     Inversion { body, x, source };

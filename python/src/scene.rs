@@ -190,6 +190,9 @@ impl Settings {
         if let Some(length) = self.resolution {
             contact = contact.resolution(<L::Of as Real>::of(length));
         }
+        if let Some(period) = self.period {
+            contact = contact.period(lift.number("period", period));
+        }
         Ok(contact)
     }
 }
@@ -261,6 +264,7 @@ scene! {
     limit_search: Option<Choice>,
     quadrature: Option<Choice>,
     resolution: Option<f64>,
+    period: Option<f64>,
     certified: bool,
     single_interval: bool,
 }

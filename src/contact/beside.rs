@@ -1,6 +1,6 @@
 //! What the bodies have beside half-planes.
 
-use crate::kernel::{Formula, Kernel, Layers, SurfaceCompliance, Table};
+use crate::kernel::{Formula, Kernel, Layers, Periodic, SurfaceCompliance, Table};
 use crate::{ContactError, InputError, Real};
 use std::sync::{Arc, OnceLock};
 
@@ -10,20 +10,22 @@ use std::sync::{Arc, OnceLock};
 pub(crate) struct Beside<'b, T: Real> {
     pub formula: Option<Formula<'b, T>>,
     pub compliance: Option<Arc<dyn SurfaceCompliance<T>>>,
+    /// Period of both bodies.
+    pub period: Option<T>,
     /// Table of the compliance and the layers, made for the first solve.
     pub table: OnceLock<Arc<Table<T>>>,
 }
 
 impl<T: Real> Default for Beside<'_, T> {
     fn default() -> Self {
-        Self { formula: None, compliance: None, table: OnceLock::new() }
+        Self { formula: None, compliance: None, period: None, table: OnceLock::new() }
     }
 }
 
 impl<'b, T: Real> Beside<'b, T> {
     /// Tells whether the user has set nothing.
     pub fn is_empty(&self) -> bool {
-        self.formula.is_none() && self.compliance.is_none()
+        self.formula.is_none() && self.compliance.is_none() && self.period.is_none()
     }
 
     /// Returns the kernel of these and of the layers, if there is any.
@@ -37,7 +39,8 @@ impl<'b, T: Real> Beside<'b, T> {
             (one, other) => one.or(other),
         };
         let formula = self.formula.clone();
-        if compliance.is_none() && formula.is_none() {
+        let row = self.period.map(Periodic::new);
+        if compliance.is_none() && formula.is_none() && row.is_none() {
             return Ok(None);
         }
         let lengths = compliance.iter().flat_map(|of| {
@@ -61,13 +64,14 @@ impl<'b, T: Real> Beside<'b, T> {
             (Some(_), Some(table)) => Some(table.clone()),
             (Some(of), None) => {
                 let what = "the compliance is not a positive number at ω";
-                let table = Table::new(of).map_err(|at| InputError::Kernel { what, at })?;
+                let table =
+                    Table::new(of, self.period).map_err(|at| InputError::Kernel { what, at })?;
                 Some(self.table.get_or_init(|| Arc::new(table)).clone())
             }
             (None, _) => None,
         };
         let is_of_layers = self.is_empty();
-        Ok(Some(Kernel { table, formula, is_of_layers, share: T::one() }))
+        Ok(Some(Kernel { table, formula, row, is_of_layers, share: T::one() }))
     }
 }
 

@@ -82,6 +82,26 @@ pub enum InputError<T: Real> {
         /// Thickness as given.
         thickness: T,
     },
+    /// The period of the bodies is not a positive finite number.
+    #[error("the period {} must be positive and finite", six(*period))]
+    InvalidPeriod {
+        /// Period as given.
+        period: T,
+    },
+    /// A body is not the same at both ends of the period over which it is described.
+    #[error(
+        "the {body} body does not repeat with the period: {what} is {} at its left end and {} at its right end; \
+         describe it over exactly one period, with the same height and slope at both ends",
+        apart(ends[0], &[ends[1]]), apart(ends[1], &[ends[0]])
+    )]
+    NotPeriodic {
+        /// Body.
+        body: Body,
+        /// Quantity that differs, for the message.
+        what: &'static str,
+        /// Its values at the left and at the right end; of x, less the period at the right end.
+        ends: [T; 2],
+    },
     /// A kernel, or a compliance by wavenumber, cannot be used.
     #[error("a kernel cannot be used: {what} = {}", six(*at))]
     Kernel {

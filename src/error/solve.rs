@@ -25,6 +25,17 @@ pub enum SolveError<T: Real> {
         /// Share of the load, or of the kernel, that was reached.
         share: T,
     },
+    /// The bodies of a row touch all over a period, or so nearly that the gap left is not solved.
+    #[error(
+        "the bodies touch all over the period, or their widest gap is below 2 % of a contact: the load is {}, and \
+         complete contact begins at about {}; lower the load", six(*load), six(*complete)
+    )]
+    CompleteContact {
+        /// Load as given; that of complete contact, if none was given.
+        load: T,
+        /// Load of one period at which they touch everywhere, from the slopes at 1024 places.
+        complete: T,
+    },
     /// The solve was ended by the function given to [`Contact::watch`](crate::Contact::watch).
     #[error(
         "cancelled after {evaluations} evaluations of the curves, the last from x = {}",

@@ -58,12 +58,12 @@ impl<'b, T: Real> Bend<'b, T> {
         &self.kernel
     }
 
-    /// Returns the mean of `∫ r dx` of some pressures over their interval, with the weight
-    /// `1/(π sqrt((x + b)(a - x)))`.
-    pub fn mean_height(&self, of: &Spread<T>) -> T {
-        let loads = Loads::of(&self.kernel, std::slice::from_ref(of));
-        let [_, terms, _] = self.kernel.terms(of.on);
-        let heights = places(of.on, terms).map(|[x, _]| loads.height(&self.kernel, x));
+    /// Returns the mean of `∫ r dx` of some pressures over the first of their intervals, with the
+    /// weight `1/(π sqrt((x + b)(a - x)))`.
+    pub fn mean_height(&self, of: &[Spread<T>]) -> T {
+        let (loads, on) = (Loads::of(&self.kernel, of), of[0].on);
+        let [_, terms, _] = self.kernel.terms(on);
+        let heights = places(on, terms).map(|[x, _]| loads.height(&self.kernel, x));
         heights.fold(T::zero(), |sum, height| sum + height) / T::count(terms)
     }
 

@@ -4,6 +4,9 @@
 //! K(x, s) = Γ(x - s)     Γ(y) = ∫ (K(ω) - 1) sin ωy dω     over ω > 0
 //! ```
 //!
+//! In a row of contacts, one in each period p, the wavenumbers are `2πn/p`, each with the weight
+//! `2π/p`, and Γ is odd about p/2, too.
+//!
 //! Γ is odd, and its nearest singularities are those at `±ic`, with c the decay of K - 1. It is a
 //! Chebyshev series on each of some panels that grow with the distance, made when it is asked for,
 //! once for each scene.
@@ -43,27 +46,39 @@ const BEYOND: f64 = 6.5;
 /// Γ and its integral.
 pub(crate) struct Table<T> {
     of: Arc<dyn SurfaceCompliance<T>>,
+    period: Option<T>,
     ends: Vec<T>,
     rows: Vec<OnceLock<[Vec<T>; 2]>>,
 }
 
 impl<T: Real> Table<T> {
-    /// Creates the table of a compliance; the wavenumber, if K is not a positive number there.
-    pub fn new(of: Arc<dyn SurfaceCompliance<T>>) -> Result<Self, T> {
+    /// Creates the table of a compliance, for a row of contacts if a period is given; the
+    /// wavenumber, if K is not a positive number there.
+    pub fn new(of: Arc<dyn SurfaceCompliance<T>>, period: Option<T>) -> Result<Self, T> {
         let decay = of.decay();
         let mut ends: Vec<T> = FIRST_ENDS.iter().map(|&end| T::of(end) * decay).collect();
         while ends.len() < PANELS {
             ends.push(T::of(GROWTH) * ends[ends.len() - 1]);
         }
+        if let Some(period) = period {
+            let half = T::of(0.5) * period;
+            ends.retain(|&end| end < half);
+            ends.push(half);
+        }
         let mut fault = None;
-        wavenumbers(&*of, [T::zero(), ends[0]], |omega, _| {
+        wavenumbers(&*of, None, [T::zero(), ends[0]], |omega, _| {
             let compliance = T::one() + of.excess(omega);
             if !(compliance.is_finite() && compliance > T::zero()) {
                 fault = fault.or(Some(omega));
             }
         });
-        let rows = (0..PANELS).map(|_| OnceLock::new()).collect();
-        fault.map_or(Ok(Self { of, ends, rows }), Err)
+        let rows = ends.iter().map(|_| OnceLock::new()).collect();
+        fault.map_or(Ok(Self { of, period, ends, rows }), Err)
+    }
+
+    /// Returns K(ω) - 1.
+    pub fn excess(&self, wavenumber: T) -> T {
+        self.of.excess(wavenumber)
     }
 
     /// Returns the length ℓ for which the surface of a body with K(0) = 0, which is some share of
@@ -71,24 +86,27 @@ impl<T: Real> Table<T> {
     /// ds`, less its share of `∫ r dx/κ`: `ln(ℓ/c) = ∫ (K - 1 + exp(-ωc))/ω dω`.
     pub fn absolute_length(&self, share: T) -> T {
         let (decay, mut sum) = (self.of.decay(), T::zero());
-        wavenumbers(&*self.of, [T::zero(), decay], |omega, weight| {
+        wavenumbers(&*self.of, None, [T::zero(), decay], |omega, weight| {
             sum += weight / omega * (self.of.excess(omega) / share + (-omega * decay).exp());
         });
         decay * sum.exp()
     }
 
-    /// Returns the panel of a distance, and the place in it from -1 to 1.
-    fn place(&self, distance: T) -> (usize, T) {
-        let panel = self.ends.iter().position(|&end| distance <= end).unwrap_or(PANELS - 1);
+    /// Returns the panel of a difference `x - s`, the place in it from -1 to 1, and the sign of Γ.
+    fn place(&self, difference: T) -> (usize, T, T) {
+        let (mut distance, mut sign) = (difference.abs(), T::one());
+        if let Some(period) = self.period {
+            distance -= period * (distance / period).floor();
+            if distance > T::of(0.5) * period {
+                (distance, sign) = (period - distance, -sign);
+            }
+        }
+        let panel = self.ends.iter().position(|&end| distance <= end);
+        let panel = panel.unwrap_or(self.ends.len() - 1);
         let [from, to] = self.panel(panel);
         // An endless body is as far as the last panel.
-        (panel, ((distance.min(to) - from) - (to - distance.min(to))) / (to - from))
-    }
-
-    /// Returns Γ (0) or its integral (1) at a distance, not negative.
-    fn value(&self, which: usize, distance: T) -> T {
-        let (panel, z) = self.place(distance);
-        value_at(&self.row(panel)[which], z)
+        let z = ((distance.min(to) - from) - (to - distance.min(to))) / (to - from);
+        (panel, z, if difference < T::zero() { -sign } else { sign })
     }
 
     /// Returns the sum of Γ, or of its integral, over loads at some places. Neighbours on one panel
@@ -105,14 +123,14 @@ impl<T: Real> Table<T> {
             *weights = [[T::zero(); LANES]; 2];
         };
         for &[s, load] in loads {
-            let (panel, place) = self.place((x - s).abs());
+            let (panel, place, sign) = self.place(x - s);
             if count == LANES || count > 0 && panel != on {
                 flush(on, &z, &mut weights);
                 count = 0;
             }
             (on, z[count]) = (panel, place);
             // Γ is odd, and its integral is even.
-            (weights[0][count], weights[1][count]) = (if x < s { -load } else { load }, load);
+            (weights[0][count], weights[1][count]) = (sign * load, load);
             count += 1;
         }
         if count > 0 {
@@ -131,7 +149,7 @@ impl<T: Real> Table<T> {
             let nodes = Nodes::of(MAX_SIZE);
             let half = T::of(0.5) * (to - from);
             let mut values: Coeffs<T> = [T::zero(); MAX_SIZE];
-            wavenumbers(&*self.of, [from, to], |omega, weight| {
+            wavenumbers(&*self.of, self.period, [from, to], |omega, weight| {
                 let weight = weight * self.of.excess(omega);
                 for (value, &z) in values.iter_mut().zip(&nodes.z) {
                     *value += weight * (omega * (from + half * (T::one() + T::of(z)))).sin();
@@ -153,12 +171,13 @@ impl<T: Real> Table<T> {
 
 impl<T: Real> RegularKernel<T> for Table<T> {
     fn slope(&self, x: T, s: T) -> T {
-        let value = self.value(0, (x - s).abs());
-        if x < s { -value } else { value }
+        let (panel, z, sign) = self.place(x - s);
+        sign * value_at(&self.row(panel)[0], z)
     }
 
     fn height(&self, x: T, s: T) -> T {
-        self.value(1, (x - s).abs())
+        let (panel, z, _) = self.place(x - s);
+        value_at(&self.row(panel)[1], z)
     }
 
     fn nearest_singularity(&self) -> T {
@@ -167,15 +186,21 @@ impl<T: Real> RegularKernel<T> for Table<T> {
 }
 
 /// Calls a function for the nodes and the weights of a rule in ω for distances from `least` to
-/// `most`.
+/// `most`, or for the wavenumbers of a period.
 fn wavenumbers<T: Real>(
     of: &dyn SurfaceCompliance<T>,
+    period: Option<T>,
     [least, most]: [T; 2],
     mut node: impl FnMut(T, T),
 ) {
     let kept = T::of(KEPT) / least;
     // There K - 1 is below rounding: it has a factor ξ², at most 400.
     let whole = (T::of(6.0) - T::epsilon().ln()) / of.decay();
+    if let Some(period) = period {
+        let step = T::two_pi() / period;
+        let omegas = (1..).map(|n| step * T::count(n)).take_while(|&omega| omega < whole);
+        return omegas.for_each(|omega| node(omega, step));
+    }
     let is_cut = T::of(BEYOND) * kept < whole;
     let end = if is_cut { T::of(BEYOND) * kept } else { whole };
     let (rule, widest) = (GaussLegendre::sixteen(), T::of(PHASE) / most);

@@ -37,11 +37,13 @@
 //! [rate](crate::LoadRates) `∂P/∂F` of the pressure in place of P; the stiffness `dF/dδ` is exact,
 //! without differences.
 
+use super::ContactState;
 use super::load_rates::LoadRates;
 use super::pressure::Pressure;
 use super::pressure_integral::{Density, Integrals};
 use super::solved::Solved;
 use super::undeformed_gap::UndeformedGap;
+use crate::gap::Sampler;
 use crate::material::Elasticity;
 use crate::quadrature::{Panels, Quadrature};
 use crate::{
@@ -135,29 +137,37 @@ pub(crate) struct Approaching<'s, T: Real> {
     solved: Solved<'s, T>,
     bodies: [Elasticity<T>; 2],
     references: References<T>,
-    /// Number of the body with a layer on a rigid base: its approach is absolute.
-    layered: Option<usize>,
+    /// Share of each body in the bend, if its approach is absolute.
+    absolute: [Option<T>; 2],
 }
 
-/// Returns the body with a layer on a rigid base, and the length in its logarithm; `None` for
-/// bodies without a kernel. Other kernels are refused.
-fn absolute_length<T: Real>(
+/// Returns for each body the length in its logarithm and its share in the bend, if its approach is
+/// absolute: for a layer on a rigid base, to the base; for a row of contacts, of the mean planes.
+/// Bodies without a kernel have none, and other kernels are refused.
+fn absolute_lengths<T: Real>(
     solved: &Solved<'_, T>,
     bodies: &[Elasticity<T>; 2],
-) -> Result<Option<(usize, T)>, ContactError<T>> {
-    let Some(bend) = solved.gap.bend() else { return Ok(None) };
+) -> Result<[Option<[T; 2]>; 2], ContactError<T>> {
+    let Some(bend) = solved.gap.bend() else { return Ok([None; 2]) };
+    let kernel = bend.kernel_of_bodies();
     let is_rigid = |body: &Elasticity<T>| body.layer.map(|layer| layer.at_zero == -T::one());
     let share = |i: usize| bodies[i].compliance / (bodies[0].compliance + bodies[1].compliance);
-    let length = match bodies.each_ref().map(is_rigid) {
-        [Some(true), None] => bend.kernel_of_bodies().absolute_length(share(0)).map(|l| (0, l)),
-        [None, Some(true)] => bend.kernel_of_bodies().absolute_length(share(1)).map(|l| (1, l)),
-        _ => None,
+    if let Some(period) = kernel.period_of_half_planes() {
+        // ln|2 sin(π(x - s)/p)| is zero on average.
+        return Ok([0, 1].map(|i| Some([period / T::two_pi(), share(i)])));
+    }
+    let of_layer = |i: usize| Some([kernel.absolute_length(share(i))?, T::one()]);
+    let lengths = match bodies.each_ref().map(is_rigid) {
+        [Some(true), None] => [of_layer(0), None],
+        [None, Some(true)] => [None, of_layer(1)],
+        _ => [None; 2],
     };
-    if length.is_none() || solved.several().is_some() {
-        let quantity = "the approach (but that of one contact with one layer on a rigid base)";
+    if lengths == [None; 2] || solved.several().is_some() {
+        let quantity = "the approach (but that of one contact with one layer on a rigid base, and of half-planes with \
+                        a period)";
         solved.of_half_planes(quantity)?;
     }
-    Ok(length)
+    Ok(lengths)
 }
 
 /// Contact in which the bodies touched first, by its number, and the heights of the gap there.
@@ -173,10 +183,13 @@ impl<'s, T: Real> Approaching<'s, T> {
         references: &References<T>,
     ) -> Result<Self, ContactError<T>> {
         let bodies = bodies.ok_or(InputError::NoMaterials)?;
-        let (mut references, mut layered) = (*references, None);
-        if let Some((body, length)) = absolute_length(&solved, &bodies)? {
-            let own = if body == 0 { &mut references.lower } else { &mut references.upper };
-            (*own, layered) = (Reference::Length(length), Some(body));
+        let mut references = *references;
+        references.x = solved.gap.folded(references.x);
+        let lengths = absolute_lengths(&solved, &bodies)?;
+        let absolute = lengths.map(|length| length.map(|[_, share]| share));
+        for (own, length) in [&mut references.lower, &mut references.upper].into_iter().zip(lengths)
+        {
+            *own = length.map_or(*own, |[length, _]| Reference::Length(length));
         }
         let References { x, lower, upper } = references;
         let half_width = solved.found.interval.half_width();
@@ -194,7 +207,7 @@ impl<'s, T: Real> Approaching<'s, T> {
                 return Err(InputError::InvalidReference { length }.into());
             }
         }
-        Ok(Self { solved, bodies, references, layered })
+        Ok(Self { solved, bodies, references, absolute })
     }
 
     fn first(&self) -> Result<First<T>, ContactError<T>> {
@@ -202,8 +215,11 @@ impl<'s, T: Real> Approaching<'s, T> {
         let mut first = First { contact: 0, heights: heights(0)? };
         if let Some(bend) = self.solved.gap.bend() {
             // The bodies touched before they were bent.
-            let (left, kappa) = (self.solved.contacts()[0].left, self.solved.kappa);
-            first.heights.least = self.least_before_bend()? + bend.height(left) / kappa;
+            let (contact, least) = self.first_before_bend()?;
+            let (left, kappa) = (self.solved.contacts()[contact].left, self.solved.kappa);
+            first = First { contact, heights: heights(contact)? };
+            first.heights.least = least + bend.height(left) / kappa;
+            return Ok(first);
         }
         if let Some(several) = self.solved.several() {
             let lowest = |at: &First<T>| several.height(at.contact, Side::Left) + at.heights.least;
@@ -215,14 +231,28 @@ impl<'s, T: Real> Approaching<'s, T> {
         Ok(first)
     }
 
-    /// Returns the least height of the bodies before they are bent, above that at the left limit.
-    fn least_before_bend(&self) -> Result<T, ContactError<T>> {
+    /// Returns the contact in which the bodies touched before they were bent, and their least
+    /// height there above that at its left limit.
+    fn first_before_bend(&self) -> Result<(usize, T), ContactError<T>> {
         let Solved { gap, found, .. } = self.solved;
         let before = &gap.before_bend().tilted(found.tilt);
-        let mut integrator = Panels::FULL.integrator()?;
-        integrator.prepare(before, found.interval)?;
-        let solved = Solved { gap: before, integrator: &*integrator, ..self.solved };
-        Ok(UndeformedGap::new(solved, 0, self.references.x)?.least)
+        let (mut integrator, mut sampler) = (Panels::FULL.integrator()?, Sampler::default());
+        let mut first: Option<(usize, T, T)> = None;
+        for (contact, &interval) in self.solved.contacts().iter().enumerate() {
+            integrator.prepare(before, interval)?;
+            let found = &ContactState { interval, ..found.clone() };
+            let solved = Solved { gap: before, integrator: &*integrator, found, ..self.solved };
+            let least = UndeformedGap::new(solved, 0, self.references.x)?.least;
+            let left = if self.solved.contacts().len() > 1 {
+                sampler.height(before, interval.left)?
+            } else {
+                T::zero()
+            };
+            if first.is_none_or(|(_, _, lowest)| left + least < lowest) {
+                first = Some((contact, least, left + least));
+            }
+        }
+        Ok(first.map_or((0, T::zero()), |(contact, least, _)| (contact, least)))
     }
 
     /// Returns the unit of all lengths in logarithms.
@@ -400,8 +430,10 @@ impl<'s, T: Real> Approaching<'s, T> {
         let logarithm = self.logarithm(&integrals, &first)?;
         let of = |i: usize| {
             let all = self.bodies[i].compliance * T::frac_1_pi();
-            let bend = self.solved.gap.bend().filter(|_| self.layered == Some(i));
-            let bent = bend.map_or(T::zero(), |bend| bend.height(self.references.x));
+            let bend = |share| Some((self.solved.gap.bend()?, share));
+            let bend = self.absolute[i].and_then(bend);
+            let bent =
+                bend.map_or(T::zero(), |(bend, share)| share * bend.height(self.references.x));
             all * (smooth[i] - T::of(2.0) * logarithm) - bent / self.solved.kappa
         };
         let bodies = self.of_bodies(&integrals, smooth, &first)?;

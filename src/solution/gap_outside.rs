@@ -43,6 +43,7 @@ impl<T: Real> Solution<'_, T> {
 impl<T: Real> Solved<'_, T> {
     /// Returns the distance between the loaded bodies at a place outside the contacts.
     pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
+        let x = self.gap.folded(x);
         let (edge, _) = self.nearest_edge(x)?;
         let beyond = x - edge;
         if beyond.is_zero() {
@@ -58,6 +59,7 @@ impl<T: Real> Solved<'_, T> {
     }
 
     pub fn gap_slope(&self, x: T) -> Result<T, ContactError<T>> {
+        let x = self.gap.folded(x);
         let (edge, free) = self.nearest_edge(x)?;
         if x == edge {
             return if free { Ok(T::zero()) } else { Err(EvaluationError::Singular { x }.into()) };

@@ -55,8 +55,8 @@ pub struct LoadRates<T> {
 #[derive(Clone, Debug, PartialEq)]
 enum Touching<T> {
     One(Interval<T>),
-    /// One contact of bodies that are not half-planes.
-    Bent(Spread<T>),
+    /// Contacts of bodies that are not half-planes, each with its part of the rate.
+    Bent(Vec<Spread<T>>),
     Several(Box<LoadResponse<T>>),
 }
 
@@ -71,9 +71,9 @@ impl<T: Real> Density<T> for &LoadRates<T> {
 
 impl<T: Real> LoadRates<T> {
     /// Returns the rate of the pressure of bodies that are not half-planes.
-    pub(super) fn bent(&self) -> Option<&Spread<T>> {
+    pub(super) fn bent(&self) -> Option<&[Spread<T>]> {
         match &self.punch {
-            Touching::Bent(spread) => Some(spread),
+            Touching::Bent(spreads) => Some(spreads),
             _ => None,
         }
     }
@@ -90,15 +90,17 @@ impl<T: Real> LoadRates<T> {
     /// [`EvaluationError::Singular`] at the edges, where it is infinite;
     /// [`EvaluationError::InvalidPosition`] for NaN.
     pub fn pressure(&self, x: T) -> Result<T, ContactError<T>> {
-        let contacts = match &self.punch {
-            Touching::One(on) | Touching::Bent(Spread { on, .. }) => std::slice::from_ref(on),
-            Touching::Several(punch) => punch.contacts(),
+        let contact = |i: usize| match &self.punch {
+            Touching::One(on) => (i == 0).then_some(on),
+            Touching::Bent(spreads) => spreads.get(i).map(|spread| &spread.on),
+            Touching::Several(punch) => punch.contacts().get(i),
         };
-        let i = contacts.partition_point(|on| on.right < x);
-        match contacts.get(i) {
+        let i = (0..self.limits.len()).position(|i| contact(i).is_none_or(|on| on.right >= x));
+        let i = i.unwrap_or(self.limits.len());
+        match contact(i) {
             Some(on) if on.contains(x) => Ok(match &self.punch {
                 Touching::One(on) => T::frac_1_pi() / on.chebyshev_weight(x),
-                Touching::Bent(spread) => spread.at(x),
+                Touching::Bent(spreads) => spreads[i].at(x),
                 Touching::Several(punch) => punch.pressure(i, x),
             }),
             Some(on) if x == on.left || x == on.right => {
@@ -132,20 +134,25 @@ impl<T: Real> LoadRates<T> {
     pub(crate) fn of(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
         let held = Self::new(solved);
         let Some(bend) = solved.gap.bend() else { return held };
-        let refuse = |why| Err(EvaluationError::NoLoadDerivative { why }.into());
-        if solved.several().is_some() {
-            return refuse("several contacts of bodies with a layer, or another kernel");
-        }
-        let spreads = punch(bend.kernel_of_bodies(), solved.contacts());
-        let Some(spread) = spreads.and_then(|mut spreads| spreads.pop()) else {
-            return refuse("the equation of a punch on the layer is singular");
+        let Some(spreads) = punch(bend.kernel_of_bodies(), solved.contacts()) else {
+            let why = "the equation of a punch on the bodies is singular";
+            return Err(EvaluationError::NoLoadDerivative { why }.into());
         };
         // A limit moves by the strength of the punch there.
-        let Ends { left, right } = spread.strengths();
-        let Self { limits, .. } = held?;
-        let limits = Ends { left: left * limits[0].left, right: right * limits[0].right };
-        let punch = Touching::Bent(spread);
-        Ok(Self { a: limits.right, b: -limits.left, limits: vec![limits], punch })
+        let Self { mut limits, punch, .. } = held?;
+        for (i, (rates, spread)) in limits.iter_mut().zip(&spreads).enumerate() {
+            let held = match &punch {
+                Touching::Several(response) => Ends::from_fn(|side| response.strength(i, side)),
+                _ => Ends::both(T::one()),
+            };
+            let ratio = spread.strengths().zip(held).map(|(new, held)| new / held);
+            // A limit that is held stays.
+            *rates = rates
+                .zip(ratio)
+                .map(|(rate, ratio)| if rate.is_zero() { rate } else { rate * ratio });
+        }
+        let [b, a] = [-limits[0].left, limits[limits.len() - 1].right];
+        Ok(Self { a, b, limits, punch: Touching::Bent(spreads) })
     }
 
     /// Returns the derivatives of a contact of half-planes, or of bodies with a given bend.

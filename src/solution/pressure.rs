@@ -87,6 +87,7 @@ impl<T: Real> Pressure<'_, T> {
     }
 
     pub(crate) fn at_one(&self, x: T) -> Result<T, ContactError<T>> {
+        let x = self.gap.folded(x);
         let estimate = self.estimate(x, &mut Cost::default())?;
         let Estimate { value: pressure, error } = estimate;
         // With other edges a pressure may pass through zero, where only its absolute error counts.
@@ -121,6 +122,10 @@ impl<T: Real> Pressure<'_, T> {
             return Err(
                 EvaluationError::LengthMismatch { x: x.len(), pressures: pressures.len() }.into()
             );
+        }
+        if self.gap.is_repeated() {
+            let x: Vec<T> = x.iter().map(|&x| self.gap.folded(x)).collect();
+            return self.fill(&x, pressures, &mut Cost::default());
         }
         self.fill(x, pressures, &mut Cost::default())
     }
@@ -197,7 +202,7 @@ impl<T: Real> Pressure<'_, T> {
     /// # Errors
     /// As [`at`](Self::at), without [`EvaluationError::Unresolved`].
     pub fn estimate(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
-        let range = self.gap.range();
+        let (x, range) = (self.gap.folded(x), self.gap.range());
         if !(x >= range[0] && x <= range[1]) {
             return Err(SolveError::OutsideBodies { x, range }.into());
         }

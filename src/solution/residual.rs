@@ -16,6 +16,7 @@ impl<T: Real> Solution<'_, T> {
     /// [`EvaluationError::InvalidPosition`] for an x not strictly inside; those of
     /// [`pressure`](Self::pressure), of sampling the gap, and [`EvaluationError::Integral`].
     pub fn residual(&self, x: T) -> Result<T, ContactError<T>> {
+        let x = self.gap.folded(x);
         let (_, Some(interval)) = Interval::find(self.intervals(), x) else {
             return Err(EvaluationError::InvalidPosition {
                 x,

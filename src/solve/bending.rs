@@ -12,13 +12,15 @@
 //! the load is smaller in the beginning. On a base far softer than its coating the first one is far
 //! too narrow: then the kernel is.
 
+mod row;
+
 use super::by_load::{self, ByApproach, HalfWidth, Peak};
 use super::{Contact, Control, Work, find_under};
 use crate::gap::Gap;
 use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
 use crate::quadrature::panels;
 use crate::solution::{ContactState, Integrals, Report, Solved};
-use crate::{ContactError, InputError, Interval, Real, SolveError};
+use crate::{ContactError, Edge, Ends, InputError, Interval, Real, SolveError};
 use std::sync::Arc;
 
 /// Contacts solved before the search is given up.
@@ -54,6 +56,7 @@ const MOST_TIMES: f64 = 2.0;
 /// Returns the kernel of a scene, if it has one, after a check that it can be solved.
 pub(super) fn kernel<'b, T: Real>(
     contact: &Contact<'b, T>,
+    control: Control<T>,
 ) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
     let Some(kernel) = contact.kernel_of_bodies()? else { return Ok(None) };
     let refuse = |why| Err(InputError::KernelNotSupported { why }.into());
@@ -68,6 +71,18 @@ pub(super) fn kernel<'b, T: Real>(
     }
     if contact.quadrature.integrator()?.panels().is_none() {
         return refuse("the quadrature is another");
+    }
+    if kernel.row.is_none() {
+        return Ok(Some(kernel));
+    }
+    if kernel.formula.is_some() {
+        return refuse("the bodies have a period, and the kernel is by a formula");
+    }
+    if contact.edges != Ends::both(Edge::Free) {
+        return refuse("the bodies have a period, and an edge is not Free");
+    }
+    if matches!(control, Control::Moment { .. } | Control::CentreOfPressure { .. }) {
+        return refuse("the bodies have a period, and a moment would turn them");
     }
     Ok(Some(kernel))
 }
@@ -88,9 +103,11 @@ pub(super) fn find<'b, T: Real>(
     let (before, one) = (T::one() / T::zero(), T::one());
     let [from, target] = [Vec::new(), Vec::new()];
     let (part, share, reached, growth, fault) = (one, one, T::zero(), T::of(GROWTH), None);
+    let gap = contact.gap.clone();
     let along = Along::Load;
     let found = Bending {
         contact,
+        gap,
         kernel: kernel.clone(),
         control,
         work: &mut *work,
@@ -108,6 +125,7 @@ pub(super) fn find<'b, T: Real>(
     .find();
     match (found, control) {
         (Err(error), _) if ends(&error) => Err(error),
+        (Err(error), Control::HalfWidth(half_width)) if fills(kernel, half_width) => Err(error),
         // The same bodies without the kernel, or with that of another load, may not be as wide.
         (Err(_), Control::HalfWidth(half_width)) => {
             by_load::find_of(contact, Some(kernel), &HalfWidth, ("half-width", half_width), work)
@@ -118,6 +136,11 @@ pub(super) fn find<'b, T: Real>(
         }
         (found, _) => found,
     }
+}
+
+/// Tells whether a contact of this half-width fills the period of a row.
+fn fills<T: Real>(kernel: &Kernel<'_, T>, half_width: T) -> bool {
+    kernel.row.as_ref().is_some_and(|row| half_width + half_width >= row.period)
 }
 
 /// Tells whether a search ends with this error: no other bend would help.
@@ -153,6 +176,8 @@ fn load<T: Real>(control: Control<T>) -> Option<T> {
 
 struct Bending<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
+    /// Bodies before they are bent, over the period at hand.
+    gap: Gap<'b, T>,
     /// The kernel, times its share.
     kernel: Kernel<'b, T>,
     control: Control<T>,
@@ -176,6 +201,15 @@ struct Bending<'s, 'w, 'b, T: Real> {
     fault: Option<ContactError<T>>,
 }
 
+/// Returns the interval of some pressures, from the first to the last.
+fn hull<T: Real>(spreads: &[Spread<T>]) -> Option<Interval<T>> {
+    let hull = |one: Interval<T>, on: Interval<T>| Interval {
+        left: one.left.min(on.left),
+        right: one.right.max(on.right),
+    };
+    spreads.iter().map(|spread| spread.on).reduce(hull)
+}
+
 /// What grows on the way to the whole problem.
 #[derive(Clone, Copy, PartialEq)]
 enum Along {
@@ -192,7 +226,17 @@ struct Solve<'b, T: Real> {
 
 impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn find(&mut self) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
-        let (mut is_checked, mut left) = (self.spreads.len() != 1, T::DERIVATIVE_ORDER);
+        if let Control::HalfWidth(half_width) = self.control
+            && fills(&self.kernel, half_width)
+        {
+            return Err(self.complete()?);
+        }
+        if self.spreads.is_empty() {
+            self.spreads = self.begin();
+        }
+        self.cut();
+        let (mut is_checked, mut left) =
+            (self.kernel.row.is_some() || self.spreads.len() != 1, T::DERIVATIVE_ORDER);
         let mut has_converged = false;
         for _ in 0..MAX_SOLVES {
             let solved = match self.solve(is_checked) {
@@ -205,6 +249,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             };
             let Some(Correction { spreads, residual }) = self.correct(&solved)? else { break };
             let is_whole = self.share >= T::one();
+            if has_converged && spreads.len() != self.target.len() {
+                // The ρ that was reached is that of other contacts.
+                self.before = T::one() / T::zero();
+            }
             // Next to a kink r is known to fewer digits.
             let is_least = residual <= T::of(LEAST) * T::epsilon()
                 || residual <= T::epsilon().powf(T::of(0.75))
@@ -240,14 +288,18 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         Err(self.not_converged())
     }
 
-    fn not_converged(&self) -> ContactError<T> {
+    fn not_converged(&mut self) -> ContactError<T> {
         let (residual, share) = (self.before, self.share);
-        SolveError::Bending { residual, solves: MAX_SOLVES, share }.into()
+        match self.fault.take() {
+            Some(fault) if self.fills(&fault) => self.complete().unwrap_or_else(|error| error),
+            _ => SolveError::Bending { residual, solves: MAX_SOLVES, share }.into(),
+        }
     }
 
     /// Refuses a contact that is some times too wide beside the kernel.
     fn check_width(&self, found: &ContactState<T>, times: T) -> Result<(), ContactError<T>> {
-        let thickness = T::of(0.5) * self.kernel.distance();
+        let Some(distance) = self.kernel.layer_distance() else { return Ok(()) };
+        let thickness = T::of(0.5) * distance;
         let (ratio, limit) = (found.interval.half_width() / thickness, T::of(THINNEST));
         if ratio > times * limit {
             return Err(InputError::LayerTooThin { ratio, limit }.into());
@@ -259,6 +311,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn step_to(&mut self, target: Vec<Spread<T>>, residual: T) {
         self.from = std::mem::replace(&mut self.spreads, target.clone());
         (self.target, self.part, self.before) = (target, T::one(), residual);
+        self.cut();
     }
 
     /// Takes half of the part of the correction.
@@ -276,16 +329,20 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             return Err(error);
         }
         if !self.target.is_empty() {
+            self.fault = Some(error);
             return self.less().map(|_| ());
         }
         // The contact of half-planes is far wider than that of a layer may be.
-        let fault = self.fault.take().unwrap_or(error);
+        let fault = match self.fault.take() {
+            Some(fault) => fault,
+            None => self.check_load(error)?,
+        };
         self.share *= T::of(0.5);
         if self.along != Along::Load || self.share < T::of(LEAST_SHARE) {
             return Err(fault);
         }
         self.fault = Some(fault);
-        self.spreads.clear();
+        self.spreads = self.begin();
         Ok(())
     }
 
@@ -349,10 +406,12 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn solve(&mut self, is_checked: bool) -> Result<Solve<'b, T>, ContactError<T>> {
         let kappa = self.contact.kappa;
         self.kernel.share = if self.along == Along::Kernel { self.share } else { T::one() };
-        let gap = if self.spreads.is_empty() {
-            self.contact.gap.clone()
-        } else {
-            self.contact.gap.bent(&Arc::new(Bend::new(&self.kernel, &self.spreads)), kappa)?
+        let gap = match hull(&self.spreads) {
+            None => self.gap.clone(),
+            Some(on) => {
+                self.kernel.in_range(self.gap.range(), on);
+                self.gap.bent(&Arc::new(Bend::new(&self.kernel, &self.spreads)), kappa)?
+            }
         };
         let mut scene = self.contact.clone();
         scene.gap = gap.clone();
@@ -364,6 +423,8 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         (workspace.report, workspace.cell_work) = (Report::new(), 0);
         let found = find_under(&scene, control, self.work)?;
         self.check_width(&found, T::of(MOST_TIMES))?;
+        let contacts = panels::contacts(self.work.integrator, &found.interval).to_vec();
+        self.look_beside(&contacts)?;
         self.work.keep(&gap.tilted(found.tilt), found.interval)?;
         let is_checked = is_checked || self.contact.single_interval;
         Ok(Solve { found, gap, is_checked })

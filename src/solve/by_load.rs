@@ -44,6 +44,10 @@ const FIRST_TOUCH: f64 = 1e-6;
 /// Shortest step by which it is followed, a factor: between its ends no fall is looked for.
 const LEAST_STEP: f64 = 1.001;
 
+/// Largest load of a row of contacts that is tried, by that of complete contact: there the gap of
+/// waves is 2 % of the period.
+const LARGEST: f64 = 0.999;
+
 /// Largest factor between a load and the first one while the load is not enclosed.
 const MAX_FACTOR: f64 = 1e12;
 
@@ -314,14 +318,22 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
 
     /// Returns the conclusion from a failed trial on its load.
     fn bound(&mut self, error: &ContactError<T>, load: T) -> Bound<T> {
-        use SolveError::{Bending, DomainTooShort, Falls, LiftsOff, NoEquilibrium};
+        use SolveError::{
+            Bending, CompleteContact, DomainTooShort, Falls, LiftsOff, NoEquilibrium,
+        };
         let (wanted, infinite) = (self.wanted, T::one() / T::zero());
         let unknown = |load: T, value: T| Point { load, value, rate: T::zero() };
         if self.kernel.is_some() {
             // What half-planes, or bodies with the bend of another load, bear is no bound.
-            return match error {
+            return match *error {
                 ContactError::Solve(Bending { .. } | DomainTooShort { .. }) => {
                     Ok(ControlFlow::Continue(unknown(load, infinite)))
+                }
+                // Nearer to complete contact nothing is solved.
+                ContactError::Solve(CompleteContact { complete, .. })
+                    if self.low.is_none_or(|low| low.load < T::of(LARGEST) * complete) =>
+                {
+                    Ok(ControlFlow::Continue(unknown(load.min(complete), infinite)))
                 }
                 _ => Err(error.clone()),
             };

@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 mod oracle;
+mod periodic;
 mod rates;
 mod refused;
 mod scenes;

@@ -62,6 +62,22 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["layer of the upper body", "-9.5", "positive and finite"],
         ),
         (
+            ContactError::Input(InputError::InvalidPeriod { period: -9.5 }),
+            &["period -9.5", "positive and finite"],
+        ),
+        (
+            ContactError::Input(InputError::NotPeriodic {
+                body: Body::Upper,
+                what: "the height",
+                ends: [9.5, 8.5],
+            }),
+            &["upper body", "the height is 9.5 at its left end and 8.5", "exactly one period"],
+        ),
+        (
+            ContactError::Solve(SolveError::CompleteContact { load: 9.5, complete: 8.5 }),
+            &["load is 9.5", "about 8.5", "lower the load"],
+        ),
+        (
             ContactError::Input(InputError::Kernel {
                 what: "its decay must be positive, but c",
                 at: -1.5,

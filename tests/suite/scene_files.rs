@@ -69,6 +69,7 @@ fn every_scene_is_kept_bit_for_bit() {
         scene.edges = [None, Some(Ends { left: Edge::Free, right: Edge::FreeUntil(0.1) })][i % 2];
         scene.certified = i % 3 == 0;
         scene.resolution = [None, Some(1e-5)][i % 2];
+        scene.period = [None, None, Some(2.5)][i % 3];
         scene.references = [None, Some(to)][i % 2];
         scene.controls = vec![
             Control::Load(1.0 / 3.0),

@@ -100,6 +100,7 @@ class Scene:
         limit_search: _Choice | None,
         quadrature: _Choice | None,
         resolution: float | None,
+        period: float | None,
         certified: bool,
         single_interval: bool,
     ) -> Scene: ...

@@ -438,6 +438,7 @@ class Settings(TypedDict, total=False):
     quadrature: Panels | Midpoint | None
     tolerance: float | None
     resolution: float | None
+    period: float | None
     certified: bool
     single_interval: bool
 
@@ -522,6 +523,9 @@ class Contact(Unchanging):
         they declare; bodies too long for that are refused. It does not apply with
         `single_interval`. By default Gaussian bumps are seen whose width at half their height is at
         least 2 % of the contact.
+    period : float, optional
+        Length along x after which both bodies repeat; each is flat or described over one period.
+        The load, and all results, are those of one period; the approach is that of the mean planes.
     certified : bool
         If true, each solve also runs `Solution.certify`, which proves that the result is a contact.
     single_interval : bool
@@ -561,6 +565,7 @@ class Contact(Unchanging):
         quadrature: Panels | Midpoint | None = None,
         tolerance: float | None = None,
         resolution: float | None = None,
+        period: float | None = None,
         certified: bool = False,
         single_interval: bool = False,
     ) -> None:
@@ -591,6 +596,7 @@ class Contact(Unchanging):
             "inversion": inversion,
             "quadrature": quadrature,
             "resolution": None if resolution is None else as_number(resolution, "resolution"),
+            "period": None if period is None else as_number(period, "period"),
             "certified": certified,
             "single_interval": single_interval,
         }
@@ -607,6 +613,7 @@ class Contact(Unchanging):
             limit_search=_search(limit_search, "limit_search"),
             quadrature=_quadrature(quadrature),
             resolution=self._settings["resolution"],
+            period=self._settings["period"],
             certified=certified,
             single_interval=single_interval,
         )

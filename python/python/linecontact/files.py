@@ -231,7 +231,7 @@ def _read_edge(value: Named) -> Edge:
 
 
 def _read_contact(fields: Fields) -> Contact:
-    settings: Fields = {name: fields[name] for name in ("resolution", "certified") if name in fields}
+    settings: Fields = {name: fields[name] for name in ("resolution", "period", "certified") if name in fields}
     if "stiffness" in fields:
         kind, value = _named(fields["stiffness"])
         if kind == "materials":
@@ -257,7 +257,7 @@ def _contact_fields(contact: Contact) -> Fields:
     if edges := settings.pop("edges", None):
         left, right = (kind if kind == "free" else {kind: x} for kind, x in edges)
         fields["edges"] = {"left": left, "right": right}
-    fields |= {name: settings.pop(name) for name in ("resolution", "certified") if name in settings}
+    fields |= {name: settings.pop(name) for name in ("resolution", "period", "certified") if name in settings}
     for name in settings:
         raise SceneFileError("", None, name, "a file holds no settings of the numerical method: leave it out")
     return fields

@@ -8,7 +8,7 @@ use linecontact::{Base, Control, Foundation, Layer, Material};
 use std::f64::consts::PI;
 
 /// A random layer, and the compliance of its surface.
-fn random_layer(random: &mut Dice) -> (Layer<f64>, f64) {
+pub fn random_layer(random: &mut Dice) -> (Layer<f64>, f64) {
     let (modulus, ratio) = (random.power_of_ten(-1.0, 1.0), random.within(0.0, 0.49));
     let thickness = random.power_of_ten(-1.0, 0.5);
     let soft = random.power_of_ten(-2.0, 2.0);
@@ -67,7 +67,7 @@ fn random_coated_bodies_meet_the_equation() {
         let mut layers = vec![(share(compliance), one)];
         layers.extend(second.map(|second| (share(other_compliance), second)));
         let tilt = solution.tilt();
-        let off = residual(&solution, kappa, &layers, |x| slope(x) + tilt);
+        let off = residual(&solution, kappa, &layers, None, |x| slope(x) + tilt);
         if seed % 2 == 1 {
             let centre = solution.centre_of_pressure().unwrap();
             assert!((centre - at).abs() < 1e-12 * solution.hull().half_width().max(1.0));

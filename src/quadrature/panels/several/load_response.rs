@@ -63,6 +63,20 @@ impl<T: Real> LoadResponse<T> {
         self.weight.contacts()
     }
 
+    /// Returns the strength of the singularity at a limit, as a share of that of a unit load on this
+    /// contact alone; zero at a limit that is held.
+    pub fn strength(&self, contact: usize, side: Side) -> T {
+        let on = self.contacts()[contact];
+        let (limit, towards) = match side {
+            Side::Left => (on.left, T::one()),
+            Side::Right => (on.right, -T::one()),
+        };
+        let term = self.terms.iter().find(|&&[e, _]| e == limit);
+        let share = term.map_or(T::zero(), |&[_, share]| share);
+        let width = T::of(2.0) * on.half_width();
+        towards * T::pi() * width * share / self.weight.on_contact(contact, [limit])[0]
+    }
+
     /// Returns the pressure at a place strictly inside a contact, given its number.
     pub fn pressure(&self, contact: usize, x: T) -> T {
         let sum = self.terms.iter().fold(self.constant, |sum, &[e, share]| sum + share / (x - e));

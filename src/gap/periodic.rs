@@ -1,0 +1,177 @@
+//! Bodies that repeat with a period, seen over one period at a time.
+//!
+//! A body described over one period is repeated, and the gap has the range of one period from its
+//! cut, a place where the bodies are far apart.
+
+use super::changed::Changed;
+use super::{Gap, Sampler, Shape};
+use crate::{Body, ContactError, Cost, InputError, Real};
+use std::sync::Arc;
+
+/// Number of places at which the first cut is sought.
+const PLACES: usize = 64;
+
+/// Difference of both ends of a period, as a share of the range of heights or of the steepest
+/// slope, up to which they are one place.
+const SAME: f64 = 1e-9;
+
+/// Number of places at which the slopes are taken for the load of complete contact: sixteen for
+/// each of 64 waves.
+const SLOPES: usize = 1024;
+
+impl<'b, T: Real> Gap<'b, T> {
+    /// Returns the gap of bodies that repeat with this period, cut where they are furthest apart.
+    pub(crate) fn repeated(&self, period: T) -> Result<Self, ContactError<T>> {
+        let start = self.start_of_period(period)?;
+        let repeat = |body: Body| {
+            let surface = &self.bodies[body as usize];
+            if surface.is_endless() {
+                return Ok(surface.shape.clone());
+            }
+            // Bodies may be described over different periods: the copies cover two from the start.
+            let [left, _] = surface.extent();
+            let first = period * ((start - left) / period + T::of(SAME)).floor();
+            let is_exact = (left + first - start).abs() <= T::of(SAME) * period;
+            let copies = if is_exact { 2 } else { 3 };
+            let shifts: Vec<T> = (0..copies).map(|i| first + period * T::count(i)).collect();
+            let body = Changed::repeated(&surface.shape, &shifts);
+            body.map(|body| Shape::Changed(Arc::new(body)))
+        };
+        let repeat = |body| repeat(body).map_err(|source| InputError::Profile { body, source });
+        let new = Self::new(repeat(Body::Lower)?, repeat(Body::Upper)?, self.inversion)?;
+        let Self { watch, resolution, .. } = *self;
+        let new = Self { watch, resolution, convex: false, period: Some(period), ..new };
+        let gap = new.cut_at(start);
+        let mut sampler = Sampler::default();
+        let place = |i: usize| start + period * (T::count(i) / T::count(PLACES));
+        let heights = (0..PLACES).map(|i| sampler.height(&gap, place(i)));
+        let heights = heights.collect::<Result<Vec<T>, _>>()?;
+        self.check_ends(&heights, period)?;
+        let highest = (1..PLACES).fold(0, |i, j| if heights[j] > heights[i] { j } else { i });
+        Ok(gap.cut_at(place(highest)))
+    }
+
+    /// Returns the left end of the period over which a body is described, after a check of the
+    /// length of both.
+    fn start_of_period(&self, period: T) -> Result<T, ContactError<T>> {
+        let mut start = None;
+        for body in [Body::Lower, Body::Upper] {
+            let surface = &self.bodies[body as usize];
+            if surface.is_endless() {
+                continue;
+            }
+            let [left, right] = surface.extent();
+            if (right - left - period).abs() > tolerance::<T>() * period {
+                let ends = [left, right - period];
+                return Err(InputError::NotPeriodic {
+                    body,
+                    what: "x, less the period on the right,",
+                    ends,
+                }
+                .into());
+            }
+            start = start.or(Some(left));
+        }
+        Ok(start.unwrap_or(T::of(-0.5) * period))
+    }
+
+    /// Checks that heights and slopes of each body are the same at both ends of a period, given
+    /// heights of the gap all over it.
+    fn check_ends(&self, heights: &[T], period: T) -> Result<(), ContactError<T>> {
+        let zero = T::zero();
+        let sizes = heights.windows(2).fold([zero; 3], |[low, high, step], pair| {
+            let below = pair[1] - heights[0];
+            [low.min(below), high.max(below), step.max((pair[1] - pair[0]).abs())]
+        });
+        let steepest = sizes[2] * T::count(PLACES) / period;
+        for body in [Body::Lower, Body::Upper] {
+            let surface = &self.bodies[body as usize];
+            if surface.is_endless() {
+                continue;
+            }
+            let (first, last) = (surface.piece(0), surface.piece(surface.len() - 1));
+            let of_heights = [first.ends[0].y, last.ends[1].y];
+            let of_slopes = [first.end_slope(0, &mut 0), last.end_slope(1, &mut 0)];
+            let pairs = [
+                ("the height", of_heights, sizes[1] - sizes[0]),
+                ("the slope", of_slopes, steepest),
+            ];
+            for (what, ends, size) in pairs {
+                let rounding = T::of(64.0) * T::epsilon() * (ends[0].abs() + ends[1].abs());
+                let is_same = (ends[1] - ends[0]).abs() <= tolerance::<T>() * size + rounding;
+                if !is_same {
+                    return Err(InputError::NotPeriodic { body, what, ends }.into());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the same bodies over the period that begins at x, or one or more periods beside it.
+    pub(crate) fn cut_at(&self, x: T) -> Self {
+        let Some(period) = self.period else { return self.clone() };
+        // Two periods are there.
+        let first = self.bodies.iter().filter(|surface| !surface.is_endless());
+        let first = first.map(|surface| surface.extent()[0]);
+        let first = first.reduce(T::max).unwrap_or(x);
+        let from = x - period * ((x - first) / period).floor();
+        Self { range: [from, from + period], number: super::number(), ..self.clone() }
+    }
+
+    /// Tells whether the bodies repeat with a period.
+    pub(crate) fn is_repeated(&self) -> bool {
+        self.period.is_some()
+    }
+
+    /// Returns the same place in the period at hand.
+    pub(crate) fn folded(&self, x: T) -> T {
+        let [left, right] = self.range;
+        match self.period {
+            Some(period) if !(x >= left && x <= right) => {
+                x - period * ((x - left) / period).floor()
+            }
+            _ => x,
+        }
+    }
+
+    /// Returns the load at which the bodies touch all over the period, with the pressure
+    ///
+    /// ```text
+    /// P = F/p + κ/π Σ (b_n cos ω_n x - a_n sin ω_n x)/K(ω_n)      g = Σ a_n cos ω_n x + b_n sin ω_n x
+    /// ```
+    ///
+    /// given K.
+    pub(crate) fn complete_load(
+        &self,
+        kappa: T,
+        compliance: impl Fn(T) -> T,
+        cost: &mut Cost,
+    ) -> Result<T, ContactError<T>> {
+        let Some(period) = self.period else { return Ok(T::one() / T::zero()) };
+        let (step, mut sampler) = (period / T::count(SLOPES), Sampler::default());
+        let slope = |i: usize| sampler.slope(self, self.range[0] + step * T::count(i));
+        let slopes = (0..SLOPES).map(slope).collect::<Result<Vec<T>, _>>()?;
+        cost.heights += sampler.cost.evaluations;
+        let turn = |i: usize| T::two_pi() * T::count(i % SLOPES) / T::count(SLOPES);
+        let turns: Vec<[T; 2]> = (0..SLOPES).map(|i| [turn(i).cos(), turn(i).sin()]).collect();
+        let mut pressures = vec![T::zero(); SLOPES];
+        for n in 1..SLOPES / 2 {
+            let share = T::of(2.0) / (T::count(SLOPES) * compliance(turn(1) * T::count(n) / step));
+            let [a, b] = [0, 1].map(|which| {
+                let terms = slopes.iter().enumerate();
+                share * terms.fold(T::zero(), |sum, (i, &g)| sum + g * turns[i * n % SLOPES][which])
+            });
+            for (i, pressure) in pressures.iter_mut().enumerate() {
+                let [cos, sin] = turns[i * n % SLOPES];
+                *pressure += b * cos - a * sin;
+            }
+        }
+        let least = pressures.into_iter().fold(T::zero(), T::min);
+        Ok(-kappa * T::frac_1_pi() * period * least)
+    }
+}
+
+/// Returns the share up to which both ends of a period may differ.
+fn tolerance<T: Real>() -> T {
+    T::of(SAME).max(T::of(64.0) * T::epsilon())
+}

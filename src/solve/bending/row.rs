@@ -1,0 +1,119 @@
+//! Rows of contacts, one in each period: where a period is cut, and the start.
+//!
+//! The kernel of a row is singular where a contact of the next period begins. So the period is cut
+//! in the widest gap, and the search begins with the load spread evenly over all of it: then the
+//! first contacts are about as many as the last ones.
+
+use super::{Bending, Spread, load};
+use crate::kernel::punch;
+use crate::{ContactError, Interval, Real, SolveError};
+use std::cmp::Ordering;
+
+/// Largest share of the widest gap that the gap at the cut may fall short of.
+const SHORT: f64 = 0.5;
+
+/// Least distance of the widest contact from the next period that is solved, by its half-width.
+const LEAST_GAP: f64 = 0.02;
+
+/// Share of the period that the first pressures leave free.
+const FREE: f64 = 0.1;
+
+impl<T: Real> Bending<'_, '_, '_, T> {
+    /// Returns the pressures to begin with: none for half-planes.
+    pub(super) fn begin(&self) -> Vec<Spread<T>> {
+        let (Some(row), Some(load)) = (&self.kernel.row, load(self.reduced())) else {
+            return Vec::new();
+        };
+        let ([left, right], free) = (self.gap.range(), T::of(0.5 * FREE) * row.period);
+        let on = Interval { left: left + free, right: right - free };
+        let mut kernel = self.kernel.clone();
+        kernel.in_range([left, right], on);
+        let spreads = punch(&kernel, &[on]).unwrap_or_default();
+        spreads.iter().map(|spread| spread.times(load)).collect()
+    }
+
+    /// Cuts the period in the widest gap, unless the present cut is in one about as wide.
+    pub(super) fn cut(&mut self) {
+        let Some(period) = self.kernel.row.as_ref().map(|row| row.period) else { return };
+        let ends = merged(&self.spreads);
+        let (Some(first), Some(last)) = (ends.first(), ends.last()) else { return };
+        let [left, right] = self.gap.range();
+        let at_cut = (first.left - left).min(right - last.right);
+        let around = [last.right, first.left + period];
+        let gaps = ends.windows(2).map(|pair| [pair[0].right, pair[1].left]).chain([around]);
+        let width = |gap: [T; 2]| gap[1] - gap[0];
+        let widest = gaps.fold(around, |one, gap| if width(gap) > width(one) { gap } else { one });
+        if at_cut + at_cut >= T::of(SHORT) * width(widest) {
+            return;
+        }
+        self.gap = self.gap.cut_at(T::of(0.5) * (widest[0] + widest[1]));
+        let gap = &self.gap;
+        for spreads in [&mut self.spreads, &mut self.from, &mut self.target] {
+            for Spread { on, .. } in spreads {
+                let shift = gap.folded(on.centre()) - on.centre();
+                *on = Interval { left: on.left + shift, right: on.right + shift };
+            }
+        }
+        self.work.workspace.keep(&merged(&self.spreads));
+    }
+
+    /// Tells the kernel how far the next period is, after a check that it is far enough from some
+    /// contacts.
+    pub(super) fn look_beside(&mut self, contacts: &[Interval<T>]) -> Result<(), ContactError<T>> {
+        let (Some(first), Some(last)) = (contacts.first(), contacts.last()) else { return Ok(()) };
+        let on = Interval { left: first.left, right: last.right };
+        let distance = self.kernel.in_range(self.gap.range(), on);
+        let widest = contacts.iter().fold(T::zero(), |most, on| most.max(on.half_width()));
+        match self.kernel.row.is_some() && distance < T::of(LEAST_GAP) * widest {
+            true => Err(self.complete()?),
+            false => Ok(()),
+        }
+    }
+
+    /// Tells whether an error means that the contacts fill the period.
+    pub(super) fn fills(&self, error: &ContactError<T>) -> bool {
+        use SolveError::{CompleteContact, DomainTooShort};
+        let is_wide =
+            matches!(error, ContactError::Solve(CompleteContact { .. } | DomainTooShort { .. }));
+        self.kernel.row.is_some() && is_wide
+    }
+
+    /// Returns the error of a first solve, or fails if the bodies touch all over a period.
+    pub(super) fn check_load(
+        &mut self,
+        error: ContactError<T>,
+    ) -> Result<ContactError<T>, ContactError<T>> {
+        if !self.fills(&error) {
+            return Ok(error);
+        }
+        match self.complete()? {
+            ContactError::Solve(SolveError::CompleteContact { load, complete })
+                if load < complete =>
+            {
+                Ok(error)
+            }
+            is_complete => Err(is_complete),
+        }
+    }
+
+    /// Returns the error for bodies that touch all over a period.
+    pub(super) fn complete(&mut self) -> Result<ContactError<T>, ContactError<T>> {
+        let compliance = |omega: T| self.kernel.compliance(omega);
+        let kappa = self.contact.kappa;
+        let complete = self.gap.complete_load(kappa, compliance, self.work.cost)?;
+        let load = load(self.control).unwrap_or(complete);
+        Ok(SolveError::CompleteContact { load, complete }.into())
+    }
+}
+
+/// Lists the intervals of pressures from left to right; those before and after a step overlap.
+fn merged<T: Real>(spreads: &[Spread<T>]) -> Vec<Interval<T>> {
+    let mut ends: Vec<Interval<T>> = spreads.iter().map(|spread| spread.on).collect();
+    ends.sort_by(|one, other| one.left.partial_cmp(&other.left).unwrap_or(Ordering::Equal));
+    ends.dedup_by(|next, last| {
+        let is_one = next.left <= last.right;
+        last.right = if is_one { last.right.max(next.right) } else { last.right };
+        is_one
+    });
+    ends
+}

@@ -1,0 +1,386 @@
+//! Bodies that repeat with a period.
+
+use super::oracle::residual;
+use super::scenes::random_layer;
+use super::{RIGID, assert_limits, coated, half_plane, layer};
+use crate::common::{Profile, graph};
+use crate::random_scenes::Dice;
+use linecontact::profile::Piecewise;
+use linecontact::{
+    Base, Contact, ContactError, Control, Curve, CurvePoint, Edge, EvaluationError, Flat,
+    InputError, Material, ParametricProfile, PlaneState, Reference, References, RegularKernel,
+    Solution, SolveError, Solver,
+};
+use std::f64::consts::{PI, TAU};
+
+const PERIOD: f64 = 1.3;
+
+/// Waves with heights `Σ a (1 - cos(2π n x/p + φ))`, described from a place on.
+pub fn waves(from: f64, terms: &[[f64; 3]]) -> Profile {
+    let terms = terms.to_vec();
+    graph(from, from + PERIOD, move |x| {
+        terms.iter().fold([0.0; 2], |[height, slope], &[a, n, phase]| {
+            let (sin, cos) = (TAU * n * x / PERIOD + phase).sin_cos();
+            [height + a * (1.0 - cos), slope + a * TAU * n / PERIOD * sin]
+        })
+    })
+}
+
+pub fn row(body: &Profile) -> Contact<'_, f64> {
+    Contact::new(&Flat, &**body).unwrap().contact_modulus(1.0).period(PERIOD)
+}
+
+fn steel_on_rigid(body: &Profile) -> Contact<'_, f64> {
+    let contact = Contact::new(&Flat, &**body).unwrap().period(PERIOD);
+    contact.materials(RIGID, Material::elastic(0.91, 0.3), PlaneState::Strain)
+}
+
+const ANYWHERE: References<f64> =
+    References { x: 0.7, lower: Reference::Depth(1.0), upper: Reference::Depth(1.0) };
+
+#[test]
+fn one_contact_is_westergaards() {
+    let d = 0.02;
+    for a in [0.01, 0.05, 0.2, 0.4, 0.45 * PERIOD, 0.6, 0.63] {
+        let sin = (PI * a / PERIOD).sin();
+        let (load, peak) = (PI * d * sin * sin, TAU * d / PERIOD * sin);
+        // Described from below the crest, from the crest and from between.
+        for from in [-0.5 * PERIOD, 0.0, 0.3] {
+            let body = waves(from, &[[d, 1.0, 0.0]]);
+            let solution = steel_on_rigid(&body).solve(Control::Load(load)).unwrap();
+            let [on] = *solution.intervals() else { panic!("{a}: {:?}", solution.intervals()) };
+            let crest = if on.right > PERIOD { PERIOD } else { 0.0 };
+            assert!((on.half_width() / a - 1.0).abs() < 2e-14, "{a} {from}: {on:?}");
+            assert!((on.centre() - crest).abs() < 4e-14, "{a} {from}: {on:?}");
+            assert!((solution.peak().unwrap().pressure / peak - 1.0).abs() < 1e-13);
+            // At any x, a period further on, too.
+            let x = 0.3 * a;
+            let sine = (PI * x / PERIOD).sin();
+            let expected =
+                TAU * d / PERIOD * (PI * x / PERIOD).cos() * (sin * sin - sine * sine).sqrt();
+            let pressure = solution.pressure().unwrap();
+            let mut pressures = [0.0; 3];
+            pressure.at_many(&[x - PERIOD, x, x + 3.0 * PERIOD], &mut pressures).unwrap();
+            for pressure in pressures.into_iter().chain([pressure.at(x + PERIOD).unwrap()]) {
+                assert!((pressure / expected - 1.0).abs() < 1e-13, "{a} {from}");
+            }
+            assert!(solution.residual(x - PERIOD).unwrap().abs() < 1e-12 * peak);
+            // gap' = 2 |P| as continued beyond the limit.
+            let beside = 0.5 * (a + 0.5 * PERIOD);
+            let high = (PI * beside / PERIOD).sin();
+            let root = (high * high - sin * sin).sqrt();
+            let expected = 2.0 * d * (high * root - sin * sin * ((high + root) / sin).ln());
+            for x in [beside, beside + PERIOD] {
+                let gap = solution.gap_at(x).unwrap();
+                assert!((gap - expected).abs() < 1e-15 + 1e-12 * expected, "{a} {from}: {gap:e}");
+            }
+            let rates = solution.load_rates().unwrap();
+            let expected = (PI * x / PERIOD).cos() / PERIOD / (sin * sin - sine * sine).sqrt();
+            assert!(
+                (rates.pressure(crest + x).unwrap() / expected - 1.0).abs() < 1e-12,
+                "{a} {from}"
+            );
+            // F = π d sin²(πa/p)
+            let width = 1.0 / (d * PI * PI / PERIOD * (TAU * a / PERIOD).sin());
+            assert!((rates.a / width - 1.0).abs() < 1e-11, "{a} {from}: {}", rates.a / width - 1.0);
+            let approach = d * sin * sin * (1.0 - (sin * sin).ln());
+            let found = solution.approach(&ANYWHERE).unwrap();
+            assert!((found.bodies / approach - 1.0).abs() < 1e-13, "{a} {from}: {found:?}");
+            let stiffness = PI / -(sin * sin).ln();
+            let found = solution.stiffness(&ANYWHERE).unwrap();
+            assert!(
+                (found / stiffness - 1.0).abs() < 1e-11,
+                "{a} {from}: {}",
+                found / stiffness - 1.0
+            );
+            if a > 0.3 {
+                solution.certify().unwrap();
+            }
+        }
+    }
+}
+
+/// Three contacts a period, by Newton's method on the limits with the cotangent as kernel.
+#[test]
+fn several_contacts_agree_with_another_method() {
+    let d = 0.02;
+    let cases = [
+        (
+            0.03,
+            [
+                [0.388_529_910_500_014_73, 0.463_660_736_936_456_76],
+                [0.825_173_931_130_970_5, 0.932_686_792_022_824_7],
+                [1.221_849_589_647_619_36, 1.368_032_728_262_040_46],
+            ],
+            [0.004_372_239_495_204_181_5, 0.008_931_755_258_449_052, 0.016_696_005_246_346_776],
+        ),
+        (
+            0.06,
+            [
+                [0.357_583_848_659_436_43, 0.493_492_688_598_232_8],
+                [0.799_279_865_809_387_3, 0.960_856_879_250_890_8],
+                [1.196_760_226_486_769, 1.391_994_723_063_361_28],
+            ],
+            [0.013_525_249_661_212_08, 0.018_875_012_483_800_923, 0.027_599_737_854_986_99],
+        ),
+    ];
+    for from in [0.1, -0.2, 0.9] {
+        let body = waves(from, &[[d, 3.0, 0.0], [0.6 * d, 1.0, 0.4]]);
+        let scene = row(&body);
+        let mut solver = Solver::new();
+        for (load, limits, loads) in &cases {
+            let check = |solution: &Solution<'_, f64>| {
+                let regions = solution.contacts().unwrap();
+                assert_eq!(regions.len(), 3);
+                for region in &regions {
+                    let shift = |[left, right]: [f64; 2]| {
+                        let turns = ((region.interval.left - left) / PERIOD).round() * PERIOD;
+                        [left + turns, right + turns]
+                    };
+                    let off = |i: usize| {
+                        let [left, right] = shift(limits[i]);
+                        (region.interval.left - left)
+                            .abs()
+                            .max((region.interval.right - right).abs())
+                    };
+                    let i = (0..3).min_by(|&i, &j| off(i).total_cmp(&off(j))).unwrap();
+                    assert!(off(i) < 2e-15, "{from} {load}: {:e}", off(i));
+                    assert!((region.load - loads[i]).abs() < 1e-15);
+                }
+            };
+            check(&scene.solve(Control::Load(*load)).unwrap());
+            check(&solver.solve(&scene, Control::Load(*load)).unwrap());
+        }
+    }
+}
+
+/// Returns random waves, at most 12 a period.
+fn random_waves(random: &mut Dice) -> Vec<[f64; 3]> {
+    let count = 1 + (5.0 * random.uniform()) as usize;
+    let wave = |_| {
+        let n = (1.0 + 12.0 * random.uniform()).floor();
+        [random.power_of_ten(-3.0, -1.0) / n, n, random.within(0.0, TAU)]
+    };
+    (0..count).map(wave).collect()
+}
+
+/// Every contact of random waves meets Eq. (1) by sums with the cotangent, half of them on layers;
+/// next loads agree with first ones.
+#[test]
+fn random_rows_meet_the_equation() {
+    let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(24);
+    let (mut refused, mut complete, mut contacts) = (0, 0, 0);
+    for seed in std::env::var("SEED").ok().map_or(0..count, |s| {
+        let s: u64 = s.parse().unwrap();
+        s..s + 1
+    }) {
+        let random = &mut Dice::new(77_000 + seed);
+        let terms = random_waves(random);
+        let slope = |x: f64| {
+            terms.iter().fold(0.0, |sum, &[a, n, phase]| {
+                sum + a * TAU * n / PERIOD * (TAU * n * x / PERIOD + phase).sin()
+            })
+        };
+        let body = waves(random.within(-1.0, 1.0), &terms);
+        let (one, compliance) = random_layer(random);
+        let is_layered = seed % 2 == 1;
+        let (kappa, layers) = match is_layered {
+            true => (PI / 2.0 / compliance, vec![(1.0, one)]),
+            false => (PI / 2.0, vec![]),
+        };
+        let scene = match is_layered {
+            true => coated(&body, RIGID, one).period(PERIOD),
+            false => row(&body),
+        };
+        let steepest = terms.iter().fold(0.0, |sum, &[a, n, _]| sum + a * n / PERIOD);
+        let load = kappa * steepest * PERIOD * random.power_of_ten(-3.0, 0.0);
+        let mut solver = Solver::new();
+        for load in [load, 1.5 * load] {
+            let solution = match scene.solve(Control::Load(load)) {
+                Err(ContactError::Solve(SolveError::CompleteContact { complete: at, .. })) => {
+                    assert!(load > 0.9 * at, "{seed}: {load} of {at}");
+                    complete += 1;
+                    continue;
+                }
+                Err(error) => {
+                    println!("{seed} at {load}: {error}");
+                    refused += 1;
+                    continue;
+                }
+                Ok(solution) => solution,
+            };
+            contacts += solution.intervals().len();
+            let off = residual(&solution, kappa, &layers, Some(PERIOD), slope);
+            assert!(off < 1e-8, "{seed} at {load}: {off:e}");
+            let certificate = solution.certify();
+            assert!(certificate.is_ok(), "{seed}: {certificate:?}");
+            let next = match solver.solve(&scene, Control::Load(load)) {
+                Ok(next) => next,
+                Err(error) => panic!("{seed} warm at {load}: {error}"),
+            };
+            let peaks = [&solution, &next].map(|solution| solution.peak().unwrap().pressure);
+            assert!((peaks[1] / peaks[0] - 1.0).abs() < 1e-9, "{seed} at {load}: {peaks:?}");
+        }
+    }
+    println!("{contacts} contacts, {complete} complete, {refused} refused");
+    assert!(1000 * refused <= count, "{refused} refused");
+}
+
+/// The rates of pressure, limits and approach of several contacts against differences, and the
+/// contacts by their half-width, peak and approach.
+#[test]
+fn rates_and_controls_of_several_contacts() {
+    let body = waves(0.1, &[[0.02, 3.0, 0.0], [0.012, 1.0, 0.4]]);
+    let scene = steel_on_rigid(&body);
+    let (load, step) = (0.06, 1e-4);
+    let solve = |load: f64| scene.solve(Control::Load(load)).unwrap();
+    let (at, below, above) = (solve(load), solve(load - step), solve(load + step));
+    let rates = at.load_rates().unwrap();
+    for (i, limits) in rates.limits.iter().enumerate() {
+        let of = |side: fn(&linecontact::Interval<f64>) -> f64| {
+            (side(&above.intervals()[i]) - side(&below.intervals()[i])) / (2.0 * step)
+        };
+        assert!((limits.left / of(|on| on.left) - 1.0).abs() < 1e-5);
+        assert!((limits.right / of(|on| on.right) - 1.0).abs() < 1e-5);
+        let x = at.intervals()[i].centre() + 0.02;
+        let [high, low] =
+            [&above, &below].map(|solution| solution.pressure().unwrap().at(x).unwrap());
+        let expected = (high - low) / (2.0 * step);
+        assert!((rates.pressure(x).unwrap() / expected - 1.0).abs() < 1e-5);
+    }
+    let [high, low] = [&above, &below].map(|solution| solution.approach(&ANYWHERE).unwrap().bodies);
+    let stiffness = at.stiffness(&ANYWHERE).unwrap();
+    assert!((stiffness * (high - low) / (2.0 * step) - 1.0).abs() < 1e-6);
+    // Wherever the references are.
+    let references = References { x: -0.3, ..ANYWHERE };
+    let bodies = at.approach(&ANYWHERE).unwrap().bodies;
+    assert!((at.approach(&references).unwrap().bodies / bodies - 1.0).abs() < 1e-13);
+
+    let peak = at.peak().unwrap().pressure;
+    let controls = [
+        Control::HalfWidth(at.hull().half_width()),
+        Control::PeakPressure(peak),
+        Control::Approach { approach: bodies, references: ANYWHERE },
+    ];
+    for control in controls {
+        let found = scene.solve(control).unwrap();
+        assert!((found.load() / load - 1.0).abs() < 1e-11, "{control:?}: {}", found.load());
+    }
+}
+
+/// Both bodies have waves, described over different periods; one goes down in x, one is of pieces.
+#[test]
+fn bodies_may_be_described_over_different_periods() {
+    let d = 0.02;
+    let sum = waves(0.0, &[[d, 3.0, 0.0], [0.6 * d, 1.0, 0.4]]);
+    let upper = waves(0.4, &[[d, 3.0, 0.0]]);
+    let part = |from: f64, to: f64| -> Box<dyn ParametricProfile<f64>> {
+        Box::new(Curve::new([-to, -from], move |k: f64| {
+            let (sin, cos) = (0.4 - TAU * k / PERIOD).sin_cos();
+            CurvePoint {
+                x: -k,
+                y: -0.6 * d * (1.0 - cos),
+                dx: -1.0,
+                dy: 0.6 * d * TAU / PERIOD * sin,
+            }
+        }))
+    };
+    let lower = Piecewise::new(vec![part(-0.4, 0.1), part(0.1, PERIOD - 0.4)]).unwrap();
+    let both = Contact::new(&lower, &*upper).unwrap().contact_modulus(1.0).period(PERIOD);
+    for load in [1e-4, 0.03, 0.1] {
+        let one = row(&sum).solve(Control::Load(load)).unwrap();
+        let other = both.solve(Control::Load(load)).unwrap();
+        let peaks = [&one, &other].map(|solution| solution.peak().unwrap().pressure);
+        assert!((peaks[1] / peaks[0] - 1.0).abs() < 1e-12, "{load}: {peaks:?}");
+        let at = one.peak().unwrap().x;
+        let gap = one.gap_at(at + 0.2).unwrap_or(0.0) - other.gap_at(at + 0.2).unwrap_or(0.0);
+        assert!(gap.abs() < 1e-14, "{load}: {gap:e}");
+    }
+}
+
+#[test]
+fn what_is_not_possible_is_refused() {
+    let crest = waves(-0.5 * PERIOD, &[[0.02, 1.0, 0.0]]);
+    let error =
+        |contact: Contact<'_, f64>, control| contact.solve(control).map(|_| ()).unwrap_err();
+    let load = Control::Load(0.01);
+    for period in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let fault = error(row(&crest).period(period), load);
+        assert!(matches!(fault, ContactError::Input(InputError::InvalidPeriod { .. })), "{fault}");
+    }
+    let not_periodic = |body: &Profile, says: &str| {
+        let fault = error(row(body), load);
+        let ContactError::Input(InputError::NotPeriodic { what, .. }) = fault else {
+            panic!("{fault}")
+        };
+        assert!(what.contains(says), "{fault}");
+    };
+    not_periodic(&graph(0.0, 1.2, |x| [0.5 * x * x, x]), "x, less the period");
+    not_periodic(&graph(-0.3, 1.0, |x| [0.5 * x * x, x]), "height");
+    not_periodic(&graph(-0.5 * PERIOD, 0.5 * PERIOD, |x| [0.5 * x * x, x]), "slope");
+
+    let refused = |contact: Contact<'_, f64>, control, says: &str| {
+        let fault = error(contact, control);
+        let is_typed = matches!(fault, ContactError::Input(InputError::KernelNotSupported { why }) if why.contains(says));
+        assert!(is_typed, "{fault}");
+    };
+    refused(row(&crest).edges(Edge::Fixed(-0.1), Edge::Free), load, "not Free");
+    refused(row(&crest).kernel(&Nothing), load, "by a formula");
+    refused(row(&crest), Control::Moment { load: 0.01, moment: 0.0, about: 0.0 }, "a moment");
+    refused(row(&crest), Control::CentreOfPressure { load: 0.01, at: 0.0 }, "a moment");
+
+    // Westergaard's waves touch everywhere under π d E*.
+    for load in [0.0628, 0.0629, 1.0] {
+        let fault = error(row(&crest), Control::Load(load));
+        let ContactError::Solve(SolveError::CompleteContact { complete, .. }) = fault else {
+            panic!("{fault}")
+        };
+        assert!((complete / (0.02 * PI) - 1.0).abs() < 1e-12, "{complete}");
+    }
+    for control in [Control::HalfWidth(0.65), Control::PeakPressure(0.2)] {
+        let fault = error(row(&crest), control);
+        let is_typed = matches!(
+            fault,
+            ContactError::Solve(SolveError::CompleteContact { .. } | SolveError::InJump { .. })
+        );
+        assert!(is_typed, "{control:?}: {fault}");
+    }
+    let fault = error(Contact::new(&Flat, &Flat).unwrap().period(PERIOD), load);
+    assert!(matches!(fault, ContactError::Solve(SolveError::CompleteContact { .. })), "{fault}");
+
+    let solution = row(&crest).solve(load).unwrap();
+    let fault = solution.subsurface().map(|_| ()).unwrap_err();
+    assert!(matches!(fault, ContactError::Evaluation(EvaluationError::HalfPlanesOnly { .. })));
+}
+
+/// Kernel that is zero.
+struct Nothing;
+
+impl RegularKernel<f64> for Nothing {
+    fn slope(&self, _: f64, _: f64) -> f64 {
+        0.0
+    }
+
+    fn height(&self, _: f64, _: f64) -> f64 {
+        0.0
+    }
+
+    fn nearest_singularity(&self) -> f64 {
+        1.0
+    }
+}
+
+/// A layer as thick as ten periods is a half-plane, and one of the same material as its base, too.
+#[test]
+fn thick_layers_are_half_planes() {
+    let body = waves(0.1, &[[0.02, 3.0, 0.0], [0.012, 1.0, 0.4]]);
+    let plain = row(&body).solve(Control::Load(0.06)).unwrap();
+    let thick = layer(1.0, 0.0, 10.0 * PERIOD, Base::Bonded);
+    let same = layer(1.0, 0.0, 0.2, half_plane(1.0, 0.0));
+    for layer in [thick, same] {
+        let solution =
+            coated(&body, RIGID, layer).period(PERIOD).solve(Control::Load(0.06)).unwrap();
+        let limits = plain.intervals().iter().map(|on| [on.left, on.right]);
+        assert_limits(&solution, &limits.collect::<Vec<_>>(), 1e-14);
+    }
+}
