@@ -3,11 +3,13 @@
 mod advice;
 mod evaluation;
 mod input;
+mod reference;
 mod solve;
 
 pub(crate) use advice::is_subnormal;
 pub use evaluation::EvaluationError;
 pub use input::InputError;
+pub use reference::ReferenceError;
 pub use solve::SolveError;
 
 use crate::profile::SplineError;
@@ -48,7 +50,7 @@ pub enum ContactError<T: Real> {
     Evaluation(#[from] EvaluationError<T>),
 }
 
-/// Makes the errors of bodies errors of the input.
+/// Makes the errors of bodies and closed forms errors of the input.
 macro_rules! of_the_input {
     ($($error:ident)*) => {$(
         impl<T: Real> From<$error<T>> for ContactError<T> {
@@ -58,7 +60,7 @@ macro_rules! of_the_input {
         }
     )*};
 }
-of_the_input! { ProfileError PiecewiseError SplineError }
+of_the_input! { ProfileError PiecewiseError SplineError ReferenceError }
 
 impl<T: Real> ContactError<T> {
     /// Returns this error, marked with whether κ is the default.

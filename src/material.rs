@@ -155,6 +155,13 @@ impl<T: Real> Elasticity<T> {
         T::of(0.5) * (coupling(lower) - coupling(upper)) / (lower.compliance + upper.compliance)
     }
 
+    /// Refuses bodies whose β is not zero to rounding.
+    pub fn check_like(bodies: [Self; 2]) -> Result<(), InputError<T>> {
+        let beta = Self::dundurs(bodies);
+        let is_zero = beta.abs() <= T::of(16.0) * T::epsilon();
+        if is_zero { Ok(()) } else { Err(InputError::UnlikeBodies { beta }) }
+    }
+
     fn of(body: Body, material: Material<T>, state: PlaneState) -> Result<Self, ContactError<T>> {
         let (zero, one) = (T::zero(), T::one());
         let Material::Elastic { youngs_modulus: modulus, poisson_ratio: ratio } = material else {

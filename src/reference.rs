@@ -18,11 +18,12 @@
 //! | [`Quartic`] | `D ((x/r)² - 1)²`: two contacts, which merge | load to limits |
 //! | [`PolynomialMap`] | N contacts in a row, made of any form above but JKR | as that form |
 //! | [`Westergaard`] | `1 - cos x`, all crests at once, without end | both ways |
+//! | [`PinInHole`] | circle in a hole of nearly its radius, no half-planes | load to limits |
 //!
 //! Each is a struct made from the body's parameters and the half-width of the contact (`new`) or
-//! the load on it (`under_load`). All but the last implement [`ClosedForm`]. Published results name
-//! their source; the rest follows from the two representations below, both of which are classical
-//! (Johnson, *Contact Mechanics*, 1985, chapters 2, 4 and 5; Hills, Nowell and Sackfield,
+//! the load on it (`under_load`). All but the last two implement [`ClosedForm`]. Published results
+//! name their source; the rest follows from the two representations below, both of which are
+//! classical (Johnson, *Contact Mechanics*, 1985, chapters 2, 4 and 5; Hills, Nowell and Sackfield,
 //! *Mechanics of Elastic Contacts*, 1993; Barber, *Contact Mechanics*, 2018).
 //!
 //! # Where they come from
@@ -77,6 +78,7 @@ mod flat_punch;
 mod graph;
 mod hertz;
 mod jkr;
+mod pin_in_hole;
 mod polynomial_map;
 mod power_law;
 mod quartic;
@@ -94,6 +96,7 @@ pub use flat_punch::FlatPunch;
 pub use graph::{Graph, body};
 pub use hertz::Hertz;
 pub use jkr::Jkr;
+pub use pin_in_hole::PinInHole;
 pub use polynomial_map::PolynomialMap;
 pub use power_law::PowerLaw;
 pub use quartic::Quartic;
@@ -102,10 +105,10 @@ pub use unequal_radii::UnequalRadii;
 pub use wedge::Wedge;
 pub use westergaard::Westergaard;
 
-use crate::rounded::six;
+pub use crate::error::ReferenceError;
+
 use crate::{Edge, Interval, Real};
 use std::fmt::Debug;
-use thiserror::Error;
 
 /// Contact of a body on a flat, in one interval or several, that is known in closed form.
 ///
@@ -148,30 +151,6 @@ pub trait ClosedForm<T: Real>: Debug + Send + Sync {
     fn edges(&self) -> [Edge<T>; 2] {
         [Edge::Free; 2]
     }
-}
-
-/// Reason why such a contact does not exist.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[non_exhaustive]
-pub enum ReferenceError<T: Real> {
-    /// Parameter outside the range in which the form holds.
-    #[error("{name} is {value}: it must be {must}", value = six(*value))]
-    Parameter {
-        /// Name of the parameter.
-        name: &'static str,
-        /// Value of the parameter.
-        value: T,
-        /// Condition on the parameter.
-        must: &'static str,
-    },
-    /// Tensile load that adhesion cannot bear.
-    #[error("no contact under the load {}: the bodies come apart at {}", six(*load), six(*least))]
-    PullOff {
-        /// Load per unit length.
-        load: T,
-        /// Load at pull-off.
-        least: T,
-    },
 }
 
 /// Refuses a parameter that is not finite, or for which `holds` is false.

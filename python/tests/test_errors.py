@@ -559,7 +559,7 @@ def test_there_is_a_class_for_each_variant() -> None:
         ("profile/spline/points.rs", "SplineError", "Spline"),
         ("search.rs", "SearchError", "Search"),
     ]
-    transparent = {"ShapeError", "PiecesError", "PointsError"}
+    transparent = {"ShapeError", "PiecesError", "PointsError", "ClosedFormError"}
     names = {
         f"{prefix}{variant}Error"
         for path, enum, prefix in families

@@ -1,5 +1,6 @@
 //! Errors of the input.
 
+use super::ReferenceError;
 use super::advice::{along, lost_digits};
 use crate::profile::SplineError;
 use crate::rounded::{apart, six, span};
@@ -20,6 +21,9 @@ pub enum InputError<T: Real> {
     /// A spline could not be made from its points.
     #[error(transparent)]
     Points(#[from] SplineError<T>),
+    /// A closed form does not exist.
+    #[error(transparent)]
+    ClosedForm(#[from] ReferenceError<T>),
     /// The profile of a body is faulty.
     #[error("{body} body: {source}")]
     Profile {
@@ -313,10 +317,11 @@ pub enum InputError<T: Real> {
         /// Value as given.
         value: T,
     },
-    /// Friction on bodies of different elasticity changes the pressure.
+    /// Bodies of different elasticity, whose pressure with friction, or as a pin in a hole, is not
+    /// known.
     #[error(
-        "the bodies are unlike: by Dundurs' constant β = {beta} friction changes the pressure, which is not \
-         modelled; like bodies, or incompressible ones, have β = 0", beta = six(*beta)
+        "the bodies are unlike: Dundurs' constant β = {beta} changes the pressure with friction, or of a pin in a \
+         hole, which is not modelled; like bodies, or incompressible ones, have β = 0", beta = six(*beta)
     )]
     UnlikeBodies {
         /// Dundurs' constant β in plane strain, from -1/2 to 1/2.

@@ -28,10 +28,7 @@ impl<'b, T: Real> Contact<'b, T> {
             return refuse("the bodies have a layer or another kernel");
         }
         if let Some(bodies) = self.elasticity()? {
-            let beta = Elasticity::dundurs(bodies);
-            if beta.abs() > T::of(16.0) * T::epsilon() {
-                return Err(InputError::UnlikeBodies { beta }.into());
-            }
+            Elasticity::check_like(bodies)?;
         }
         Ok(())
     }

@@ -70,6 +70,7 @@ mod owned;
 mod partial_slip;
 mod peak;
 mod pieces;
+mod pin_in_hole;
 mod profiles;
 mod pull_off;
 mod quadrature;

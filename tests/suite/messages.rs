@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 use linecontact::profile::{Parabola, SplineError};
+use linecontact::reference::ReferenceError;
 use linecontact::search::{Root, SearchError};
 use linecontact::{
     Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, Ends, EvaluationError, Flat,
@@ -24,6 +25,14 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["-1.5"],
         ),
         (ContactError::Input(InputError::Points(SplineError::TooFew { points: 33 })), &["four"]),
+        (
+            ContactError::Input(InputError::ClosedForm(ReferenceError::Parameter {
+                name: "the clearance",
+                value: -1.5,
+                must: "positive",
+            })),
+            &["the clearance is -1.5", "positive"],
+        ),
         (ContactError::Solve(SolveError::Cancelled { evaluations: 41, last: ON }), &["cancelled"]),
         (
             ContactError::Input(InputError::Profile { body: Body::Upper, source: not_finite }),

@@ -569,7 +569,8 @@ class InvalidShearError(InputError):
 
 
 class UnlikeBodiesError(InputError):
-    """Friction on bodies of different elasticity changes the pressure.
+    """Bodies of different elasticity, whose pressure with friction, or as a pin in a hole, is not
+    known.
 
     Attributes
     ----------

@@ -3,8 +3,10 @@
 use super::*;
 use linecontact::reference::{
     Biquadratic, ClosedForm, Cosine, Ellipse, Exponential, FlatPunch, Hertz, Hyperbola, Jkr,
-    PowerLaw, ReferenceError, RoundedPunch, UnequalRadii, Wedge, Westergaard, body as body_of,
+    PinInHole, PowerLaw, ReferenceError, RoundedPunch, UnequalRadii, Wedge, Westergaard,
+    body as body_of,
 };
+use linecontact::{Material, PlaneState};
 
 type Form = Box<dyn ClosedForm<f64>>;
 type Made = Result<Form, ReferenceError<f64>>;
@@ -86,6 +88,20 @@ fn parameters_and_places() {
                     form.pressure(NAN, 1.0),
                     form.pressure(INF, 1.0),
                 );
+            }
+            let steel = Material::elastic(1.0, 0.3);
+            let [radius, clearance, load] = numbers;
+            let state = PlaneState::Strain;
+            let made = PinInHole::under_load(radius, clearance, load, [steel, steel], state);
+            if !value.is_finite() && made.is_ok() {
+                wrong.push(format!("PinInHole{numbers:?}: accepted"));
+            }
+            if let Ok(form) = made {
+                let angle = form.half_angle();
+                for theta in [0.0, angle, -angle, NAN, INF] {
+                    let _ = form.pressure(theta);
+                }
+                assert!(angle > 0.0 && angle < std::f64::consts::PI, "{numbers:?}");
             }
         }
     }
