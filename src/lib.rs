@@ -129,7 +129,9 @@ pub use quadrature::{Estimate, Exponents, Midpoint, Panels};
 pub use real::Real;
 pub use solution::{Approach, ContactRegion, PartialSlip, Shear, SlipStress, Traction};
 pub use solution::{Attempt, Outcome, Report, STEEPEST_HALF_PLANE, Solution, Start, Summary};
-pub use solution::{Certificate, Extremum, LoadRates, Peak, Pressure, Uncertainty, stress};
+pub use solution::{
+    Certificate, Conformity, Extremum, LoadRates, Peak, Pressure, Uncertainty, stress,
+};
 pub use solver::Solver;
 pub use spring::{SpringPoint, SpringTable};
 #[cfg(feature = "rayon")]

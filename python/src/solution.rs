@@ -178,6 +178,12 @@ impl Solution {
     }
 
     #[getter]
+    fn conformity(&self, py: Python<'_>) -> PyResult<Option<(f64, f64, f64)>> {
+        let found = call::library(py, || Ok::<_, ContactError<f64>>(self.0.conformity()))?;
+        Ok(found.map(|found| (found.angle, found.too_low, found.parabolas_too_low)))
+    }
+
+    #[getter]
     fn cost(&self) -> Counts {
         counts(self.0.cost())
     }

@@ -194,6 +194,23 @@ def line(x: Array, y: Array) -> lc.Curve:
     return lc.Curve((x[0], x[1]), lambda k: (k, y[0] + slope * (k - x[0]), 1.0, slope))
 
 
+def test_bodies_that_conform_are_told_of_in_place_of_steep_ones(run: Run) -> None:
+    hole, pin = (lc.Ellipse.circle(radius, (-1.5, 1.5)) for radius in (10.02, 10.0))
+    contact = lc.Contact(hole, pin, contact_modulus=115e3)
+    solution = contact.solve(load=240.0)
+    found = solution.conformity
+    assert found is not None and f"with {math.degrees(found.angle):.1f}° at the limits" in str(solution)
+    # Persson's peak at the half-angle of 20.18 degrees that this load has, and Hertz's.
+    exact, hertz = 44.07589, (240.0 * 115e3 * 0.02 / (math.pi * 10.0**2)) ** 0.5
+    assert abs(found.too_low - (1.0 - solution.peak().pressure / exact)) < 1.2e-3
+    assert abs(found.parabolas_too_low - (1.0 - hertz / exact)) < 1.6e-3
+    text = run(Scene(contact, ({"load": 240.0},), UNITS, "pin"))[1]
+    assert "bodies conform, 19.9 degrees" in text and "2.6 % too low, 4.8 % with parabolas" in text
+    assert solution.is_steep and "too steep" not in text and "..." not in text
+    gentle = run(Scene(contact, ({"load": 10.0},), UNITS, "pin"))[1]
+    assert contact.solve(load=10.0).conformity is None and "conform" not in gentle
+
+
 def test_doubts_are_told(run: Run) -> None:
     edges = (lc.Edge.fixed(-1.0), lc.Edge.fixed(1.0))
     punch = Scene(lc.Contact(lc.Flat(), lc.Flat(), edges=edges, contact_modulus=1e5), ({"load": 100.0},), {}, "")

@@ -57,7 +57,7 @@ def test_everything_public_is_listed_and_has_words() -> None:
 
 def test_every_class_has_an_example() -> None:
     # Rows of numbers appear in the examples of the functions that return them.
-    rows = {"Approach", "Attempt", "Certificate", "ContactRegion", "Cost", "Extremum", "Peak"}
+    rows = {"Approach", "Attempt", "Certificate", "Conformity", "ContactRegion", "Cost", "Extremum", "Peak"}
     rows |= {"SpringPoints", "StressPeak", "Summary", "Uncertainty"}
     kinds = {"EvaluationError", "InputError", "LineContactError", "SolveError"}
     for name in set(lc.__all__) - rows - kinds:

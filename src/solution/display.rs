@@ -1,7 +1,7 @@
 //! Results as lines of text.
 
 use super::stress::Stress;
-use super::{Certificate, Extremum, Peak, Solution};
+use super::{Certificate, Conformity, Extremum, Peak, Solution};
 use crate::rounded::{DIGITS, Rounded};
 use crate::{ContactError, Estimate, EvaluationError, Interval, Real, Side};
 use std::fmt::{Display, Formatter, Result};
@@ -15,8 +15,9 @@ fn interval<T: Real>(on: &Interval<T>, f: &mut Formatter<'_>) -> Result {
     write!(f, "[{left}, {right}]")
 }
 
-/// Writes contacts, load, largest pressure and quality in three lines, and a warning if
-/// [`is_steep`](Solution::is_steep); with six digits, or as many as the precision (`{:.3}`).
+/// Writes contacts, load, largest pressure and quality in three lines, and a warning of bodies that
+/// [conform](Solution::conformity) or else [are steep](Solution::is_steep); with six digits, or as
+/// many as the precision (`{:.3}`).
 impl<T: Real> Display for Solution<'_, T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let contacts = self.intervals();
@@ -69,12 +70,29 @@ impl<T: Real> Display for Solution<'_, T> {
                 write!(f, "\nthe bodies would have to pull at each other at x = {x}")?;
             }
         }
-        if self.is_steep() {
+        if let Some(conformity) = self.conformity() {
+            write!(f, "\n{conformity}")?;
+        } else if self.is_steep() {
             f.write_str(
                 "\nthe surfaces are steep (slopes above 0.3), so less like half-planes: do all units go together?",
             )?;
         }
         Ok(())
+    }
+}
+
+/// Writes the angle in degrees and both shares in percent, in one line.
+impl<T: Real> Display for Conformity<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let number = |value: T| -> f64 { value.to_subset_unchecked() };
+        write!(
+            f,
+            "the bodies conform, with {:.1}° at the limits, unlike half-planes: the pressure in the middle, the peak \
+             of a pin in a hole, is about {:.1} % too low, {:.1} % if parabolas stand for circles",
+            number(self.angle).to_degrees(),
+            100.0 * number(self.too_low),
+            100.0 * number(self.parabolas_too_low)
+        )
     }
 }
 

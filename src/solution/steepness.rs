@@ -2,7 +2,8 @@
 
 use super::Solution;
 use crate::gap::Sampler;
-use crate::{Body, ContactError, Real, Side};
+use crate::{Body, ContactError, Ends, Real, Side};
+use std::f64::consts::PI;
 
 /// Slope of a surface above which the half-plane is a poor model of a body. Its error is of the
 /// order of the square of the slope, a tenth at this one (Johnson, *Contact Mechanics*, 1985, §4.1,
@@ -11,6 +12,40 @@ pub const STEEPEST_HALF_PLANE: f64 = 0.3;
 
 /// Number of points of each contact at which slopes are taken.
 const POINTS: usize = 17;
+
+/// Least angle of bodies that conform: 9.1°, at which Hertz's peak in a hole is 1 % too low.
+const LEAST_CONFORMING: f64 = 9.1 * PI / 180.0;
+
+/// Conformity of two bodies that touch like a pin and its hole, and what half-planes in their place
+/// cost.
+///
+/// The shares are of the pressure of a [`PinInHole`](crate::reference::PinInHole) of like materials
+/// under the same load, in the middle, where it is largest. With `v = sin²(ε/2)` they are
+///
+/// ```text
+/// v (5/6 + 6/5 v - v²) of circles,        v (19/12 + 2/5 v) of parabolas in their place
+/// ```
+///
+/// The first terms are those of the series of the closed forms; the others bring both to within a
+/// hundredth up to 60°. (From 38° on half-planes have larger pressures beside the middle.)
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Conformity<T> {
+    /// Angle ε that the surfaces have at the limits, the mean of both bodies: radians.
+    pub angle: T,
+    /// Share by which the pressure in the middle is too low.
+    pub too_low: T,
+    /// Share by which it is too low if parabolas stand for circles, as in Hertz's formulas.
+    pub parabolas_too_low: T,
+}
+
+impl<T: Real> Conformity<T> {
+    fn of(angle: T) -> Self {
+        let v = (T::of(0.5) * angle).sin().powi(2);
+        let too_low = v * (T::of(5.0 / 6.0) + v * (T::of(1.2) - v));
+        Self { angle, too_low, parabolas_too_low: v * (T::of(19.0 / 12.0) + T::of(0.4) * v) }
+    }
+}
 
 impl<T: Real> Solution<'_, T> {
     /// Tells whether the slope of the gap at the limits of the contacts, or the
@@ -25,6 +60,48 @@ impl<T: Real> Solution<'_, T> {
         let mut slopes = limits.flat_map(|(i, limits)| limits.map(|x| solved.sampled_slope(i, x)));
         slopes.any(|slope| slope.is_some_and(|(slope, _)| steep(slope)))
             || self.steepest_slope().is_ok_and(steep)
+    }
+
+    /// Returns how the bodies conform, if they do, so that half-planes give too low a peak: at both
+    /// limits of one contact, both surfaces rise from it, or both fall, and each turns by 9.1° or
+    /// more to either side. It is known of half-planes between free edges. Where a body cannot be
+    /// sampled the answer is `None`, too.
+    ///
+    /// ```
+    /// use linecontact::profile::Ellipse;
+    /// use linecontact::{Contact, Control};
+    ///
+    /// let [pin, hole] = [10.0f64, 10.02].map(|radius| Ellipse::circle(radius, [-1.5, 1.5]));
+    /// let (pin, hole) = (pin?, hole?);
+    /// let contact = Contact::new(&hole, &pin)?.contact_modulus(115e3);
+    /// let conformity = contact.solve(Control::Load(240.0))?.conformity().unwrap();
+    /// assert!((conformity.angle.to_degrees() - 20.0).abs() < 0.5);
+    /// assert!((conformity.too_low - 0.026).abs() < 0.001);
+    /// # Ok::<(), linecontact::ContactError<f64>>(())
+    /// ```
+    #[must_use]
+    pub fn conformity(&self) -> Option<Conformity<T>> {
+        let (free, several) = (self.found.free, self.intervals().len() > 1);
+        if several || self.gap.bend().is_some() || !(free.left && free.right) {
+            return None;
+        }
+        let (hull, mut sampler) = (self.hull(), Sampler::default());
+        let mut slope =
+            |body, side: Side| sampler.body_slope(&self.gap, body, hull[side], side.other()).ok();
+        // Outward: rising, if positive.
+        let mut angles = |body| {
+            let [left, right] = [slope(body, Side::Left)?, slope(body, Side::Right)?];
+            Some(Ends { left: -left.atan(), right: right.atan() })
+        };
+        let [mut lower, mut upper] = [angles(Body::Lower)?, angles(Body::Upper)?];
+        if lower.left < T::zero() {
+            [lower, upper] = [lower, upper].map(|angles| angles.map(|angle| -angle));
+        }
+        let turn = |on: Ends<T>| T::of(0.5) * (on.left + on.right);
+        let is_hollow = [lower, upper].iter().all(|on| on.left > T::zero() && on.right > T::zero());
+        let turns = [turn(lower), turn(upper)];
+        let conform = is_hollow && turns[0].min(turns[1]) >= T::of(LEAST_CONFORMING);
+        conform.then(|| Conformity::of(T::of(0.5) * (turns[0] + turns[1])))
     }
 
     /// Returns the largest slope `|f'|` of either surface within the contacts, before loading: a

@@ -1,8 +1,13 @@
-//! A pin in a hole: the closed form.
+//! A pin in a hole: the closed form, and what solutions for half-planes say of bodies that conform.
 
+use crate::common::{NanSafe, graph};
 use crate::integrals::integral;
+use linecontact::profile::{Ellipse, Parabola};
 use linecontact::reference::{ClosedForm, Hertz, PinInHole, ReferenceError};
-use linecontact::{ContactError, InputError, Interval, Material, PlaneState};
+use linecontact::{
+    Base, Contact, ContactError, Control, Edge, Flat, InputError, Interval, Layer, Material,
+    ParametricProfile, PlaneState, Solution,
+};
 use std::f64::consts::PI;
 
 /// Like materials with E* = 1/2, so that the plane modulus of either is 1.
@@ -222,4 +227,120 @@ fn hertz_in_place_of_the_hole() {
         let too_low = 100.0 * (1.0 - hertz / pin_under(load).pressure(0.0));
         assert!((too_low - percent).abs() < 0.05, "{angle}°: {too_low}");
     }
+}
+
+/// Returns the share by which the pressure in the middle is too low beside that of the pin in its
+/// hole, which is the largest there. (From 38° on half-planes have larger ones beside it.)
+fn real(solution: &Solution<'_, f64>) -> f64 {
+    let pressure = solution.pressure().unwrap().at(0.0).unwrap();
+    1.0 - pressure / pin_under(solution.load()).pressure(0.0)
+}
+
+fn solved([lower, upper]: [&dyn ParametricProfile<f64>; 2], half_width: f64) -> Solution<'_, f64> {
+    let [hole, pin] = LIKE;
+    let contact = Contact::new(lower, upper).unwrap();
+    let contact = contact.materials(hole, pin, PlaneState::Strain);
+    contact.solve(Control::HalfWidth(half_width)).unwrap()
+}
+
+/// Solutions for half-planes say how far they are from the closed form, whether the pin lies in the
+/// hole or the hole on the pin.
+#[test]
+fn a_solution_says_what_conformity_costs() {
+    let circle = |radius: f64| Ellipse::circle(radius, [-1.5, 1.5]).unwrap();
+    let (pin, hole) = (circle(RADIUS), circle(RADIUS + CLEARANCE));
+    let [pin_below, hole_above] = [RADIUS, RADIUS + CLEARANCE].map(|r| {
+        graph(-9.9, 9.9, move |x| {
+            let y = (r * r - x * x).sqrt();
+            [y, -x / y]
+        })
+    });
+    for angle in [5.0f64, 9.0, 9.2, 10.0, 20.0, 30.0, 45.0, 60.0] {
+        let half_width = RADIUS * angle.to_radians().sin();
+        let mut differ = 0.0f64;
+        for bodies in [[&hole as &dyn ParametricProfile<f64>, &pin], [&*pin_below, &*hole_above]] {
+            let solution = solved(bodies, half_width);
+            let text = solution.to_string();
+            let Some(found) = solution.conformity() else {
+                assert!(angle < 9.1 && !text.contains("conform"), "{text}");
+                continue;
+            };
+            assert!(angle > 9.1);
+            assert!((found.angle.to_degrees() - angle).abs() < 2e-2, "{}", found.angle);
+            let real = real(&solution);
+            differ = differ.nan_max((found.too_low / real - 1.0).abs());
+            let said = [found.too_low, found.parabolas_too_low].map(|share| 100.0 * share);
+            if let Some((_, percent)) = PARABOLAS.into_iter().find(|row| row.0 == angle) {
+                assert!((said[1] - percent).abs() < 0.06, "{angle}°: {}", said[1]);
+            }
+            let said = format!("{:.1} % too low, {:.1} % if parabolas", said[0], said[1]);
+            assert!(
+                text.contains(&said) && text.contains(&format!("with {angle:.1}° at")),
+                "{text}"
+            );
+            assert!(!text.contains("steep"), "{text}");
+            println!("{angle}°: {:.3} % said, {:.3} % real", 100.0 * found.too_low, 100.0 * real);
+        }
+        assert!(differ < 0.013, "{angle}°: {differ}");
+    }
+}
+
+/// Parabolas in place of the circles are Hertz's, whose error is larger.
+#[test]
+fn parabolas_in_place_of_circles() {
+    let parabola = |radius: f64| Parabola::new(radius, [-20.0, 20.0]).unwrap();
+    let (pin, hole) = (parabola(RADIUS), parabola(RADIUS + CLEARANCE));
+    for (angle, percent) in PARABOLAS {
+        let [lower, upper] = LIKE;
+        let contact = Contact::new(&hole, &pin).unwrap();
+        let contact = contact.materials(lower, upper, PlaneState::Strain);
+        let solution = contact.solve(Control::Load(load_at(angle))).unwrap();
+        let found = solution.conformity().unwrap();
+        println!("{angle}°: {found}, {:.3} % real", 100.0 * real(&solution));
+        assert!((100.0 * real(&solution) - percent).abs() < 0.06);
+        assert!((found.angle.to_degrees() / angle - 1.0).abs() < 0.04);
+        assert!((found.parabolas_too_low / real(&solution) - 1.0).abs() < 0.08);
+    }
+}
+
+#[test]
+fn bodies_that_do_not_conform() {
+    let circle = |radius: f64| Ellipse::circle(radius, [-1.5, 1.5]).unwrap();
+    let (pin, hole, groove) = (circle(RADIUS), circle(RADIUS + CLEARANCE), circle(500.0));
+    let roller = graph(-9.0, 9.0, |x| [-x * x / 20.0, -x / 10.0]);
+    let flank = |side: f64, radius: f64| {
+        graph(-9.0, 9.0, move |x| [side * x + x * x / radius / 2.0, side + x / radius])
+    };
+    let flanks = [-1.0, 1.0].map(|side| [RADIUS + CLEARANCE, RADIUS].map(|r| flank(side, r)));
+    // A groove along the bottom of the hole, over which the pin rests on two contacts.
+    let parted = graph(-9.0, 9.0, |x| {
+        let (radius, groove) = (RADIUS + CLEARANCE, 1e-3 * (-x * x).exp());
+        [x * x / radius / 2.0 - groove, x / radius + 2.0 * x * groove]
+    });
+    let whole = Parabola::new(RADIUS, [-9.0, 9.0]).unwrap();
+    let scenes: [(&str, [&dyn ParametricProfile<f64>; 2]); 6] = [
+        ("over a groove", [&*parted, &whole]),
+        ("on a flat", [&Flat, &pin]),
+        ("on another roller", [&*roller, &pin]),
+        ("in a wide groove", [&groove, &pin]),
+        ("on the left flank", flanks[0].each_ref().map(|flank| &**flank as _)),
+        ("on the right flank", flanks[1].each_ref().map(|flank| &**flank as _)),
+    ];
+    for (name, bodies) in scenes {
+        let solution = solved(bodies, 4.0);
+        assert_eq!(solution.conformity(), None, "{name}");
+        let text = solution.to_string();
+        assert!(text.contains("steep") && !text.contains("conform"), "{name}: {text}");
+    }
+
+    // Not half-planes, and corners at which the pressure is infinite anyway.
+    let rubber = Material::elastic(1.0, 0.3);
+    let layer = Layer { material: rubber, thickness: 5.0, base: Base::Bonded };
+    let contact = Contact::new(&hole, &pin).unwrap();
+    let layered = contact.clone().materials(layer, Material::Rigid, PlaneState::Strain);
+    let solution = layered.solve(Control::Load(1e-4)).unwrap();
+    assert!(solution.is_steep() && solution.conformity().is_none(), "{solution}");
+    let held = contact.edges(Edge::Fixed(-4.0), Edge::Fixed(4.0));
+    let solution = held.solve(Control::Load(1.0)).unwrap();
+    assert!(solution.is_steep() && solution.conformity().is_none(), "{solution}");
 }

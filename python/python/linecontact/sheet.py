@@ -208,6 +208,13 @@ def _notes(row: Row, units: dict[str, str]) -> list[str]:
     with suppress(LineContactError):
         limits = [pair for one in solution.contacts() for pair in zip(one.interval, one.held, strict=True)]
         held = [f"{x:.6g}" for x, is_held in limits if is_held]
+    conform = ["", ""]
+    if (found := solution.conformity) is not None:
+        shares = f"{100.0 * found.too_low:.1f} % too low, {100.0 * found.parabolas_too_low:.1f} %"
+        conform = [
+            f"bodies conform, {math.degrees(found.angle):.1f} degrees at the limits, unlike half-planes:",
+            f"peak, in the middle, some {shares} with parabolas for circles",
+        ]
     notes = [
         (all(one >= 0.0 for one in errors), "numerical error", f"below {error:.0e} of half-width and largest pressure"),
         (numbers["half_width_deviation"] > 0.0, "noise of the points", deviation),
@@ -217,7 +224,8 @@ def _notes(row: Row, units: dict[str, str]) -> list[str]:
         (poisson_ratio(solution.contact) is None, "note", "without materials Tresca is for Poisson's ratios from 1/4"),
         (len(row.missing) > 0, "not known of layers", ", ".join(row.missing)),
         (not solution.contact.has_modulus, "note", "no modulus is given: pressures are those of kappa = 1"),
-        (solution.is_steep, "note", "slopes exceed 0.3, too steep for half-planes: check the units"),
+        *((found is not None, "note", words) for words in conform),
+        (solution.is_steep and found is None, "note", "slopes exceed 0.3, too steep for half-planes: check the units"),
     ]
     return [_line(label, words) for holds, label, words in notes if holds]
 

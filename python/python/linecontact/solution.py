@@ -20,6 +20,7 @@ __all__ = [
     "Approach",
     "Attempt",
     "Certificate",
+    "Conformity",
     "ContactRegion",
     "Cost",
     "Extremum",
@@ -99,6 +100,27 @@ class Uncertainty(NamedTuple):
     b: float
     half_width: float
     peak_pressure: float
+
+
+class Conformity(NamedTuple):
+    """What half-planes cost in place of a pin and its hole: estimates for like materials.
+
+    The pressure in the middle is compared with that of a pin in a hole under the same load, which
+    is the largest there.
+
+    Attributes
+    ----------
+    angle : float
+        Angle that the surfaces have at the limits, the mean of both bodies: radians.
+    too_low : float
+        Share by which the pressure in the middle is too low.
+    parabolas_too_low : float
+        Share by which it is too low if parabolas stand for circles, as in Hertz's formulas.
+    """
+
+    angle: float
+    too_low: float
+    parabolas_too_low: float
 
 
 class Approach(NamedTuple):
@@ -493,6 +515,26 @@ class Solution:
         It is that of the gap at the limits of the contacts, or the steepest of either surface.
         """
         return self._found.is_steep
+
+    @property
+    def conformity(self) -> Conformity | None:
+        """How far the bodies conform like a pin and its hole; None if they do not.
+
+        They do if, at both limits of one contact, both surfaces rise from it, or both fall, and
+        each body turns by 9.1 degrees or more to either side. None with layers too, and between
+        edges that are not free.
+
+        Examples
+        --------
+        >>> import math
+        >>> import linecontact as lc
+        >>> hole, pin = (lc.Ellipse.circle(radius, (-1.5, 1.5)) for radius in (10.02, 10.0))
+        >>> solution = lc.solve(hole, pin, contact_modulus=115e3, load=240.0)
+        >>> round(math.degrees(solution.conformity.angle)), round(solution.conformity.too_low, 3)
+        (20, 0.026)
+        """
+        found = self._found.conformity
+        return None if found is None else Conformity(*found)
 
     @property
     def cost(self) -> Cost:
