@@ -60,6 +60,8 @@ pub struct Contact<'b, T: Real> {
     pub(crate) quadrature: &'b dyn Quadrature<T>,
     pub(crate) certified: bool,
     pub(crate) single_interval: bool,
+    /// Flag: no narrow features are looked for, on the way to a bend.
+    pub(crate) is_trial: bool,
     /// What the bodies have beside half-planes.
     pub(crate) beside: Beside<'b, T>,
 }
@@ -136,6 +138,7 @@ impl<'b, T: Real> Contact<'b, T> {
             quadrature: &Panels::FULL,
             certified: false,
             single_interval: false,
+            is_trial: false,
             beside: Beside::default(),
         })
     }

@@ -134,7 +134,7 @@ impl<T: Real> Kernel<'_, T> {
     pub fn in_range(&mut self, range: [T; 2], on: Interval<T>) -> T {
         let Some(row) = &mut self.row else { return self.distance() };
         let distance = (on.left - range[0]).min(range[1] - on.right);
-        row.distance = distance.max(T::of(LEAST_DISTANCE) * row.period);
+        (row.range, row.distance) = (range, distance.max(T::of(LEAST_DISTANCE) * row.period));
         distance
     }
 

@@ -39,11 +39,14 @@ impl<'b, T: Real> Bend<'b, T> {
     pub fn new(kernel: &Kernel<'b, T>, spreads: &[Spread<T>]) -> Self {
         let ends = spreads.iter().map(|spread| spread.on);
         let margin = T::of(MARGIN) * kernel.distance();
-        let on = Interval {
+        let hull = Interval {
             left: ends.clone().fold(T::max_value().unwrap_or(T::one()), |x, on| x.min(on.left))
                 - margin,
             right: ends.fold(T::min_value().unwrap_or(T::zero()), |x, on| x.max(on.right)) + margin,
         };
+        // A period is short, and all of it is as far from the next contacts.
+        let period = kernel.row.as_ref().map(|row| row.range);
+        let on = period.map_or(hull, |[left, right]| Interval { left, right });
         // Over one contact a single series converges with the root of its width.
         let cells = ((on.right - on.left) / (T::of(WIDTH) * kernel.distance())).component(0);
         let count = if spreads.len() == 1 { 1 } else { super::at_least(cells).max(1) };

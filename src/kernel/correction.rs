@@ -18,7 +18,7 @@
 
 use super::Kernel;
 use super::bend::Bend;
-use super::spread::{Loads, Spread, places, series};
+use super::spread::{Loads, Nodes, Spread};
 use crate::numerics::LinearSystem;
 use crate::{Interval, Real};
 
@@ -57,25 +57,21 @@ impl<T: Real> Correction<T> {
         for spread in &spreads {
             let on = spread.on;
             let [terms, ..] = kernel.terms(on);
-            let at: Vec<T> = super::spread::places(on, terms).map(|[x, _]| x).collect();
-            let new: Vec<[T; 2]> = at.iter().map(|&x| loads.both(kernel, x)).collect();
-            // A comparison loses NaN.
-            let is_known = |sums: &[T; 2]| sums.iter().all(|sum| sum.is_finite());
-            if let Some(i) = new.iter().position(|sums| !is_known(sums)) {
-                return Err(at[i]);
-            }
-            let new: Vec<T> = new.iter().map(|&[slope, _]| slope).collect();
+            let nodes = Nodes::new(on, terms);
+            let new: Vec<T> = nodes.x.iter().map(|&x| loads.slope(kernel, x)).collect();
             let old = |x: T| bend.map_or(T::zero(), |bend| bend.slope(x));
-            let rho: Vec<T> = new.iter().zip(&at).map(|(&new, &x)| new - old(x)).collect();
-            if let Some(i) = rho.iter().position(|rho| !rho.is_finite()) {
-                return Err(at[i]);
+            let rho: Vec<T> = new.iter().zip(&nodes.x).map(|(&new, &x)| new - old(x)).collect();
+            // A comparison loses NaN.
+            let is_known = |(&x, &rho): (&T, &T)| (rho + loads.height(kernel, x)).is_finite();
+            if let Some((&x, _)) = nodes.x.iter().zip(&rho).find(|&at| !is_known(at)) {
+                return Err(x);
             }
             let size = |row: &[T]| row.iter().fold(T::zero(), |most, a| most.max(a.abs()));
             // The half-planes' part is about as large as the sum of the coefficients.
             let half_planes = spread.q.iter().fold(T::zero(), |sum, q| sum + q.abs());
             largest = largest.max(size(&new)).max(half_planes / on.half_width());
             off = off.max(size(&rho));
-            places.push(Place { on, terms, rho: series(&rho) });
+            places.push(Place { on, nodes, rho });
         }
         let residual = if largest > T::zero() { off / largest } else { off };
         let system = System { kernel, places, kept };
@@ -87,39 +83,42 @@ impl<T: Real> Correction<T> {
         let Some(change) = system.solve(rises.collect(), T::zero()) else { return Ok(None) };
         let mut at = 0;
         for (spread, place) in spreads.iter_mut().zip(&system.places) {
-            spread.q.resize(spread.q.len().max(place.terms), T::zero());
-            spread.q.iter_mut().zip(&change[at..at + place.terms]).for_each(|(q, &by)| *q += by);
-            at += place.terms;
+            let terms = place.nodes.len();
+            spread.q.resize(spread.q.len().max(terms), T::zero());
+            spread.q.iter_mut().zip(&change[at..at + terms]).for_each(|(q, &by)| *q += by);
+            at += terms;
         }
         Ok(Some(Self { spreads, residual }))
     }
 }
 
 /// Returns the pressures of a flat punch on contacts under a unit load: the rate of the pressure by
-/// the load. `None` if the system is singular.
+/// the load, to rounding or to about a thousandth. `None` if the system is singular.
 pub(crate) fn punch<T: Real>(
     kernel: &Kernel<'_, T>,
     contacts: &[Interval<T>],
+    is_rough: bool,
 ) -> Option<Vec<Spread<T>>> {
     let place = |&on: &Interval<T>| {
-        let [_, terms, _] = kernel.terms(on);
-        Place { on, terms, rho: vec![T::zero(); terms] }
+        let [few, terms, _] = kernel.terms(on);
+        let terms = if is_rough { few / 2 } else { terms };
+        Place { on, nodes: Nodes::new(on, terms), rho: vec![T::zero(); terms] }
     };
     let places: Vec<Place<T>> = contacts.iter().map(place).collect();
     let system = System { kernel, places, kept: Kept::Load };
     let gaps = vec![T::zero(); contacts.len() - 1];
     let mut q = system.solve(gaps, T::one())?.into_iter();
     let spread =
-        |place: &Place<T>| Spread { on: place.on, q: q.by_ref().take(place.terms).collect() };
+        |place: &Place<T>| Spread { on: place.on, q: q.by_ref().take(place.nodes.len()).collect() };
     Some(system.places.iter().map(spread).collect())
 }
 
 /// Contact in the system.
 struct Place<T> {
     on: Interval<T>,
-    /// Number of coefficients that are corrected.
-    terms: usize,
-    /// Chebyshev coefficients of ρ.
+    /// As many nodes as coefficients are corrected.
+    nodes: Nodes<T>,
+    /// ρ at the nodes.
     rho: Vec<T>,
 }
 
@@ -147,7 +146,7 @@ impl<T: Real> System<'_, '_, T> {
         let count = columns.len();
         let rows: Vec<Vec<T>> =
             (0..count).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
-        let of = |place: &Place<T>| second_kind(&place.rho);
+        let of = |place: &Place<T>| place.nodes.second_kind(&place.rho);
         let mut right: Vec<T> = self.places.iter().flat_map(of).chain(rises).map(|a| -a).collect();
         right.resize(count - 1, T::zero());
         right.push(last);
@@ -161,40 +160,35 @@ impl<T: Real> System<'_, '_, T> {
 
     /// Returns the left sides for the pressures `cos kθ/(π L sin θ)` on one contact.
     fn columns(&self, j: usize) -> Vec<Vec<T>> {
-        let Place { on, terms, .. } = self.places[j];
-        let nodes: Vec<[T; 2]> = places(on, terms).collect();
-        // For each node of this contact, the kernel as a series on every contact.
-        let mut columns = vec![Vec::new(); terms];
+        let Place { on, ref nodes, .. } = self.places[j];
+        let mut columns = vec![Vec::new(); nodes.len()];
         for (i, place) in self.places.iter().enumerate() {
-            let targets: Vec<T> = places(place.on, place.terms).map(|[x, _]| x).collect();
-            let by_node = |&[s, _]: &[T; 2]| -> Vec<T> {
-                let at = targets.iter().map(|&x| self.kernel.slope(x, s));
-                second_kind(&series(&at.collect::<Vec<_>>()))
+            // By targets: the field of each pressure there.
+            let field = |x: T| {
+                let kernel = nodes.means(nodes.x.iter().map(|&s| self.kernel.slope(x, s)));
+                let beside = (i != j).then(|| outside(on, x, nodes.len()));
+                let beside = beside.into_iter().flatten().map(|[cauchy, _]| cauchy);
+                sums(kernel, beside)
             };
-            let by_node: Vec<Vec<T>> = nodes.iter().map(by_node).collect();
+            let fields: Vec<Vec<T>> = place.nodes.x.iter().map(|&x| field(x)).collect();
             for (k, column) in columns.iter_mut().enumerate() {
                 let start = column.len();
-                column.extend(mean_of(&by_node, &nodes, k));
-                if i != j {
-                    let field = targets.iter().map(|&x| outside(on, x, k)[0]).collect::<Vec<_>>();
-                    let field = second_kind(&series(&field));
-                    column[start..].iter_mut().zip(field).for_each(|(sum, a)| *sum += a);
-                } else if k > 0 {
+                let values: Vec<T> = fields.iter().map(|field| field[k]).collect();
+                column.extend(place.nodes.second_kind(&values));
+                if i == j && k > 0 {
                     column[start + k - 1] -= on.half_width().recip();
                 }
             }
         }
-        let ends: Vec<[T; 2]> = self.gaps().collect();
-        let rises = |&[s, _]: &[T; 2]| -> Vec<T> {
-            let rise =
-                |&[from, to]: &[T; 2]| self.kernel.height(to, s) - self.kernel.height(from, s);
-            ends.iter().map(rise).collect()
-        };
-        let rises: Vec<Vec<T>> = nodes.iter().map(rises).collect();
+        let rises = self.gaps().map(|[from, to]| {
+            let rise = |&s: &T| self.kernel.height(to, s) - self.kernel.height(from, s);
+            let kernel = nodes.means(nodes.x.iter().map(rise));
+            let [from, to] = [from, to].map(|x| outside(on, x, nodes.len()));
+            sums(kernel, to.iter().zip(&from).map(|(to, from)| to[1] - from[1]))
+        });
+        let rises: Vec<Vec<T>> = rises.collect();
         for (k, column) in columns.iter_mut().enumerate() {
-            let potential = |x: T| outside(on, x, k)[1];
-            let own = ends.iter().map(|&[from, to]| potential(to) - potential(from));
-            column.extend(mean_of(&rises, &nodes, k).zip(own).map(|(by, own)| by + own));
+            column.extend(rises.iter().map(|rise| rise[k]));
             column.extend(self.conditions(on, j, k));
         }
         columns
@@ -227,9 +221,7 @@ impl<T: Real> System<'_, '_, T> {
     fn column_of_tilt(&self, kappa: T) -> Vec<T> {
         let mut column = Vec::new();
         for place in &self.places {
-            let mut level = vec![T::zero(); place.terms];
-            level[0] = -kappa;
-            column.extend(second_kind(&level));
+            column.extend(place.nodes.second_kind(&vec![-kappa; place.nodes.len()]));
         }
         column.extend(self.gaps().map(|[from, to]| -kappa * (to - from)));
         column.resize(column.len() + 2, T::zero());
@@ -237,43 +229,30 @@ impl<T: Real> System<'_, '_, T> {
     }
 }
 
-/// Returns the means of rows over the nodes, each times `cos kθ`.
-fn mean_of<T: Real>(
-    rows: &[Vec<T>],
-    nodes: &[[T; 2]],
-    k: usize,
-) -> impl Iterator<Item = T> + use<T> {
-    let mut sums = vec![T::zero(); rows[0].len()];
-    for (i, row) in rows.iter().enumerate() {
-        let angle = T::pi() * (T::count(i) + T::of(0.5)) / T::count(nodes.len());
-        let weight = (T::count(k) * angle).cos() / T::count(nodes.len());
-        sums.iter_mut().zip(row).for_each(|(sum, &a)| *sum += weight * a);
-    }
-    sums.into_iter()
+/// Adds the second of two rows to the first; it may be empty.
+fn sums<T: Real>(mut row: Vec<T>, other: impl Iterator<Item = T>) -> Vec<T> {
+    row.iter_mut().zip(other).for_each(|(sum, value)| *sum += value);
+    row
 }
 
-/// Returns the coefficients of `U_0` to `U_{n-2}` of a Chebyshev series of n terms.
-fn second_kind<T: Real>(series: &[T]) -> Vec<T> {
-    let half = T::of(0.5);
-    let term = |m: usize| {
-        let before = if m == 1 { series[0] } else { half * series[m - 1] };
-        before - series.get(m + 1).map_or(T::zero(), |&after| half * after)
-    };
-    (1..series.len()).map(term).collect()
-}
-
-/// Returns the Cauchy integral and the potential of `cos kθ/(π L sin θ)` at x, outside the interval
-/// or at its ends.
-fn outside<T: Real>(on: Interval<T>, x: T, k: usize) -> [T; 2] {
+/// Returns the Cauchy integrals and the potentials of `cos kθ/(π L sin θ)` at x, outside the
+/// interval or at its ends, for each k.
+fn outside<T: Real>(on: Interval<T>, x: T, count: usize) -> Vec<[T; 2]> {
     let (half_width, one) = (on.half_width(), T::one());
     let z = (x - on.centre()) / half_width;
     let root = ((z.abs() - one).max(T::zero()) * (z.abs() + one)).sqrt();
     let sign = if z < T::zero() { -one } else { one };
     let u = sign / (z.abs() + root);
-    let power = (0..k).fold(one, |power, _| power * u);
-    let potential = match k {
-        0 => (half_width / (u.abs() + u.abs())).ln(),
-        _ => -power / T::count(k),
+    let scale = sign / (half_width * root);
+    let mut power = one;
+    let term = |k: usize| {
+        let potential = match k {
+            0 => (half_width / (u.abs() + u.abs())).ln(),
+            _ => -power / T::count(k),
+        };
+        let term = [scale * power, potential];
+        power *= u;
+        term
     };
-    [sign * power / (half_width * root), potential]
+    (0..count).map(term).collect()
 }

@@ -17,10 +17,12 @@ const TERMS: usize = 17;
 #[derive(Clone, Debug)]
 pub(crate) struct Periodic<T> {
     pub period: T,
-    /// Distance from the nearest place of the bodies to the next contact.
+    /// Period at hand, and the distance from its ends to the contacts in it.
+    pub range: [T; 2],
     pub distance: T,
-    /// Coefficients of the power series, from the lowest power.
+    /// Coefficients of the power series, from the lowest power, and of its integral.
     terms: [T; TERMS],
+    integral: [T; TERMS],
 }
 
 impl<T: Real> Periodic<T> {
@@ -34,7 +36,9 @@ impl<T: Real> Periodic<T> {
         ];
         let sum = |j: usize| (3..=64).rev().map(|n| f64::from(n).powi(-2 * j as i32 - 2)).sum();
         let term = |j: usize| T::of(first.get(j).copied().unwrap_or_else(|| sum(j)));
-        Self { period, distance: T::of(0.5) * period, terms: std::array::from_fn(term) }
+        let (range, distance) = ([T::zero(), period], T::of(0.5) * period);
+        let integral = std::array::from_fn(|j| term(j) / T::count(j + 1));
+        Self { period, range, distance, terms: std::array::from_fn(term), integral }
     }
 
     /// Returns t; the ends of an endless body count as the next period.
@@ -42,32 +46,30 @@ impl<T: Real> Periodic<T> {
         let most = T::of(1.5);
         ((x - s) / self.period).max(-most).min(most)
     }
+}
 
-    /// Returns a polynomial in t² with coefficients from those of the power series.
-    fn polynomial(&self, square: T, of: impl Fn(usize, T) -> T) -> T {
-        let terms = self.terms.iter().enumerate().rev();
-        terms.fold(T::zero(), |sum, (j, &term)| sum * square + of(j, term))
-    }
+/// Returns a polynomial, given its coefficients from the lowest power.
+fn polynomial<T: Real>(terms: &[T; TERMS], x: T) -> T {
+    terms.iter().rev().fold(T::zero(), |sum, &term| sum * x + term)
 }
 
 impl<T: Real> RegularKernel<T> for Periodic<T> {
     fn slope(&self, x: T, s: T) -> T {
         let (one, two, t) = (T::one(), T::of(2.0), self.turns(x, s));
         let near = ((t - one) * (t + one)).recip() + ((t - two) * (t + two)).recip();
-        two * t * (near - self.polynomial(t * t, |_, term| term)) / self.period
+        two * t * (near - polynomial(&self.terms, t * t)) / self.period
     }
 
     fn height(&self, x: T, s: T) -> T {
-        let (one, quarter, t) = (T::one(), T::of(0.25), self.turns(x, s));
+        let (one, two, quarter, t) = (T::one(), T::of(2.0), T::of(0.25), self.turns(x, s));
         let square = t * t;
         // Next to the image of s the sum would lose what is left.
-        let near = if square < T::of(0.5) {
-            (-square).ln_1p()
+        let near = if square < quarter {
+            (quarter * square * (square - T::of(5.0))).ln_1p()
         } else {
-            ((one - t) * (one + t)).abs().ln()
+            (quarter * (one - t) * (one + t) * (two - t) * (two + t)).abs().ln()
         };
-        let others = self.polynomial(square, |j, term| term / T::count(j + 1));
-        near + (-quarter * square).ln_1p() - square * others
+        near - square * polynomial(&self.integral, square)
     }
 
     fn nearest_singularity(&self) -> T {

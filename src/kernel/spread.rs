@@ -47,18 +47,60 @@ pub(super) fn places<T: Real>(on: Interval<T>, count: usize) -> impl Iterator<It
 
 /// Returns the Chebyshev coefficients of a polynomial, given its values at the nodes.
 pub(super) fn series<T: Real>(values: &[T]) -> Vec<T> {
-    let (zero, count) = (T::zero(), values.len());
-    let share = T::of(2.0) / T::count(count);
-    let step = T::pi() / T::count(2 * count);
-    // All angles are multiples of one.
-    let cosines: Vec<T> = (0..4 * count).map(|j| share * (step * T::count(j)).cos()).collect();
+    let count = values.len();
+    let cosines = cosines(count);
     let term = |k: usize| {
         let terms = values.iter().enumerate();
-        terms.fold(zero, |sum, (i, &value)| sum + value * cosines[(2 * i + 1) * k % (4 * count)])
+        let sum = terms.fold(T::zero(), |sum, (i, &value)| {
+            sum + value * cosines[(2 * i + 1) * k % (4 * count)]
+        });
+        sum * T::of(if k == 0 { 1.0 } else { 2.0 }) / T::count(count)
     };
-    let mut series: Vec<T> = (0..count).map(term).collect();
-    series[0] *= T::of(0.5);
-    series
+    (0..count).map(term).collect()
+}
+
+/// Returns the cosines of all multiples of π/2n, from which those of all orders at the nodes are.
+fn cosines<T: Real>(count: usize) -> Vec<T> {
+    let step = T::pi() / T::count(2 * count);
+    (0..4 * count).map(|j| (step * T::count(j)).cos()).collect()
+}
+
+/// Nodes of a Gauss-Chebyshev rule on an interval.
+pub(super) struct Nodes<T> {
+    pub x: Vec<T>,
+    /// `cos kθ` over the number of nodes, by rows of one node.
+    shares: Vec<T>,
+}
+
+impl<T: Real> Nodes<T> {
+    pub fn new(on: Interval<T>, count: usize) -> Self {
+        let x = places(on, count).map(|[x, _]| x).collect();
+        let cosines: Vec<T> =
+            cosines::<T>(count).iter().map(|&cos| cos / T::count(count)).collect();
+        let row = |node: usize| (0..count).map(move |k| (2 * node + 1) * k % (4 * count));
+        Self { x, shares: (0..count).flat_map(row).map(|j| cosines[j]).collect() }
+    }
+
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Returns the means of values at the nodes times `cos kθ`, for each k.
+    pub fn means(&self, values: impl Iterator<Item = T>) -> Vec<T> {
+        let mut sums = vec![T::zero(); self.len()];
+        for (value, shares) in values.zip(self.shares.chunks(self.len())) {
+            sums.iter_mut().zip(shares).for_each(|(sum, &share)| *sum += value * share);
+        }
+        sums
+    }
+
+    /// Returns the coefficients of `U_0` to `U_{n-2}` of a polynomial, given its values.
+    pub fn second_kind(&self, values: &[T]) -> impl Iterator<Item = T> + use<T> {
+        let means = self.means(values.iter().copied());
+        // T_n is zero at the nodes.
+        let after = means.clone().into_iter().skip(2).chain([T::zero()]);
+        means.into_iter().zip(after).map(|(before, after)| before - after)
+    }
 }
 
 /// Pressures as loads at nodes.

@@ -134,7 +134,7 @@ impl<T: Real> LoadRates<T> {
     pub(crate) fn of(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
         let held = Self::new(solved);
         let Some(bend) = solved.gap.bend() else { return held };
-        let Some(spreads) = punch(bend.kernel_of_bodies(), solved.contacts()) else {
+        let Some(spreads) = punch(bend.kernel_of_bodies(), solved.contacts(), false) else {
             let why = "the equation of a punch on the bodies is singular";
             return Err(EvaluationError::NoLoadDerivative { why }.into());
         };

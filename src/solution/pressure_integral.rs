@@ -27,6 +27,9 @@ use std::sync::OnceLock;
 /// Number of nodes of a panel.
 const NODES: usize = 16;
 
+/// Noise of the pressures of many contacts, as a share of the largest coefficient.
+const NOISE: f64 = 1e-11;
+
 /// Largest number of panels beyond those between the breakpoints, before an integral is given up.
 const MAX_PANELS: usize = 20_000;
 
@@ -131,7 +134,8 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         [some, most]: [usize; 2],
     ) -> Result<Vec<T>, ContactError<T>> {
         let mut count = some;
-        while count < most && self.contacts[contact].breakpoints.is_empty() {
+        // As long as that costs less than integrals.
+        while count < 4 * most && self.contacts[contact].breakpoints.is_empty() {
             if let Some(q) = self.smooth_coefficients(contact, count)? {
                 return Ok(q);
             }
@@ -166,7 +170,10 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         q[0] *= T::of(0.5);
         let largest = |q: &[T]| q.iter().fold(T::zero(), |most, q| most.max(q.abs()));
         let least = T::epsilon() * largest(&q);
-        let vanish = largest(&q[count - 4..]) <= T::of(64.0) * least;
+        let [before, last] = [largest(&q[count - 8..count - 4]), largest(&q[count - 4..])];
+        // Coefficients that fall no more are the noise of the pressures.
+        let is_noise = last >= T::of(0.25) * before && last <= T::of(NOISE) * largest(&q);
+        let vanish = is_noise || last <= T::of(64.0) * least;
         q.truncate(q.iter().rposition(|q| q.abs() > least).map_or(1, |last| last + 1));
         Ok(vanish.then_some(q))
     }

@@ -29,6 +29,9 @@ const MAX_SOLVES: usize = 120;
 /// ρ that ends the search, in units in the last place: the rounding of r.
 const LEAST: f64 = 16.0;
 
+/// Residual that ends the search, too, as a share of the error of the limits.
+const BELOW: f64 = 1.0 / 64.0;
+
 /// Share of the last ρ that shows that it falls no more.
 const STALLED: f64 = 0.2;
 
@@ -108,6 +111,7 @@ pub(super) fn find<'b, T: Real>(
     let found = Bending {
         contact,
         gap,
+        bent: None,
         kernel: kernel.clone(),
         control,
         work: &mut *work,
@@ -178,6 +182,8 @@ struct Bending<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
     /// Bodies before they are bent, over the period at hand.
     gap: Gap<'b, T>,
+    /// The same with the bend of the last solve, if it is to be solved once more.
+    bent: Option<Gap<'b, T>>,
     /// The kernel, times its share.
     kernel: Kernel<'b, T>,
     control: Control<T>,
@@ -239,7 +245,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             (self.kernel.row.is_some() || self.spreads.len() != 1, T::DERIVATIVE_ORDER);
         let mut has_converged = false;
         for _ in 0..MAX_SOLVES {
-            let solved = match self.solve(is_checked) {
+            let solved = match self.solve(is_checked, has_converged) {
                 Ok(solved) => solved,
                 Err(error) => {
                     self.retreat(error)?;
@@ -253,8 +259,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 // The ρ that was reached is that of other contacts.
                 self.before = T::one() / T::zero();
             }
-            // Next to a kink r is known to fewer digits.
-            let is_least = residual <= T::of(LEAST) * T::epsilon()
+            // A residual far below the error of the limits says no more of them. Next to a kink r is
+            // known to fewer digits.
+            let known = T::of(BELOW) * solved.found.error.unwrap_or(T::zero());
+            let is_least = residual <= known.max(T::of(LEAST) * T::epsilon())
                 || residual <= T::epsilon().powf(T::of(0.75))
                     && residual > T::of(STALLED) * self.before;
             if is_least && is_whole && left == 0 {
@@ -263,6 +271,8 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                     self.work.workspace.spreads = spreads;
                     return Ok((ContactState { error, ..solved.found }, solved.gap));
                 }
+                // The samples at hand serve the check.
+                self.bent = Some(solved.gap);
                 (is_checked, has_converged) = (true, true);
                 continue;
             }
@@ -403,19 +413,20 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     }
 
     /// Finds the contact of the bent bodies.
-    fn solve(&mut self, is_checked: bool) -> Result<Solve<'b, T>, ContactError<T>> {
+    fn solve(&mut self, is_checked: bool, is_last: bool) -> Result<Solve<'b, T>, ContactError<T>> {
         let kappa = self.contact.kappa;
         self.kernel.share = if self.along == Along::Kernel { self.share } else { T::one() };
-        let gap = match hull(&self.spreads) {
-            None => self.gap.clone(),
-            Some(on) => {
+        let gap = match (self.bent.take(), hull(&self.spreads)) {
+            (Some(bent), _) => bent,
+            (None, None) => self.gap.clone(),
+            (None, Some(on)) => {
                 self.kernel.in_range(self.gap.range(), on);
                 self.gap.bent(&Arc::new(Bend::new(&self.kernel, &self.spreads)), kappa)?
             }
         };
         let mut scene = self.contact.clone();
         scene.gap = gap.clone();
-        scene.single_interval |= !is_checked;
+        (scene.single_interval, scene.is_trial) = (scene.single_interval | !is_checked, !is_last);
         let control = self.reduced();
         let Work { integrator, workspace, cost } = &mut *self.work;
         **cost += integrator.cost();
@@ -426,7 +437,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         let contacts = panels::contacts(self.work.integrator, &found.interval).to_vec();
         self.look_beside(&contacts)?;
         self.work.keep(&gap.tilted(found.tilt), found.interval)?;
-        let is_checked = is_checked || self.contact.single_interval;
+        let is_checked = is_checked && is_last || self.contact.single_interval;
         Ok(Solve { found, gap, is_checked })
     }
 

@@ -28,7 +28,7 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         let on = Interval { left: left + free, right: right - free };
         let mut kernel = self.kernel.clone();
         kernel.in_range([left, right], on);
-        let spreads = punch(&kernel, &[on]).unwrap_or_default();
+        let spreads = punch(&kernel, &[on], true).unwrap_or_default();
         spreads.iter().map(|spread| spread.times(load)).collect()
     }
 

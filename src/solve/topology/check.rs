@@ -44,7 +44,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if is_said || lifts_off.is_some() && found.reaches(edges) == Ends::both(true) {
             return Ok(lifts_off);
         }
-        self.resolve(found)?;
+        if !self.contact.is_trial {
+            self.resolve(found)?;
+        }
         let gap = &self.contact.gap.tilted(found.tilt);
         let is_proved = self.is_convex() || self.touches_once(gap, found)?;
         if is_proved && !self.corrects_survey()? {
