@@ -63,7 +63,8 @@ pub(super) fn series<T: Real>(values: &[T]) -> Vec<T> {
 
 /// Pressures as loads at nodes.
 pub(crate) struct Loads<T> {
-    nodes: Vec<[T; 2]>,
+    /// Places and their loads.
+    pub nodes: Vec<[T; 2]>,
 }
 
 impl<T: Real> Loads<T> {

@@ -166,9 +166,9 @@ impl<T: Real> RegularKernel<T> for Table<T> {
     }
 }
 
-/// Calls a function for the nodes and the weights of a rule in ω for distances from `least` to
-/// `most`.
-fn wavenumbers<T: Real>(
+/// Calls a function for the nodes and the weights of a rule in ω, rising, for distances from
+/// `least` to `most`.
+pub(crate) fn wavenumbers<T: Real>(
     of: &dyn SurfaceCompliance<T>,
     [least, most]: [T; 2],
     mut node: impl FnMut(T, T),

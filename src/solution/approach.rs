@@ -146,7 +146,7 @@ fn absolute_length<T: Real>(
     bodies: &[Elasticity<T>; 2],
 ) -> Result<Option<(usize, T)>, ContactError<T>> {
     let Some(bend) = solved.gap.bend() else { return Ok(None) };
-    let is_rigid = |body: &Elasticity<T>| body.layer.map(|layer| layer.at_zero == -T::one());
+    let is_rigid = |body: &Elasticity<T>| body.layer.map(|layer| layer.is_on_rigid());
     let share = |i: usize| bodies[i].compliance / (bodies[0].compliance + bodies[1].compliance);
     let length = match bodies.each_ref().map(is_rigid) {
         [Some(true), None] => bend.kernel_of_bodies().absolute_length(share(0)).map(|l| (0, l)),

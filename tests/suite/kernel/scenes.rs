@@ -8,7 +8,7 @@ use linecontact::{Base, Control, Foundation, Layer, Material};
 use std::f64::consts::PI;
 
 /// A random layer, and the compliance of its surface.
-fn random_layer(random: &mut Dice) -> (Layer<f64>, f64) {
+pub fn random_layer(random: &mut Dice) -> (Layer<f64>, f64) {
     let (modulus, ratio) = (random.power_of_ten(-1.0, 1.0), random.within(0.0, 0.49));
     let thickness = random.power_of_ten(-1.0, 0.5);
     let soft = random.power_of_ten(-2.0, 2.0);
