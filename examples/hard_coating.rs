@@ -2,9 +2,9 @@
 //!
 //!     cargo run --release --example hard_coating
 //!
-//! Contacts half to eight times as wide as the coating is thick: the shear that the interface has to
-//! bear, the tension on the surface beside the contact, which opens cracks, and the largest von
-//! Mises stress in coating and steel. Lengths in mm, pressures in MPa, loads in N/mm.
+//! For half-widths of half to eight thicknesses: the shear that the interface has to bear, the
+//! tension on the surface beside the contact, which opens cracks, and the largest von Mises stress
+//! in coating and steel. Lengths in mm, pressures in MPa, loads in N/mm.
 
 #[path = "shared/drawing.rs"]
 mod drawing;

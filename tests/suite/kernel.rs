@@ -11,7 +11,7 @@ use crate::common::{Profile, graph, join, kernel_values};
 use linecontact::profile::{Line, Parabola};
 use linecontact::reference::Westergaard;
 use linecontact::{
-    Base, Contact, Control, Edge, Flat, Foundation, Layer, Material, PlaneState, Reference,
+    Base, Body, Contact, Control, Edge, Flat, Foundation, Layer, Material, PlaneState, Reference,
     References, RegularKernel, Solution, Solver, SurfaceCompliance,
 };
 use std::f64::consts::PI;
@@ -283,6 +283,10 @@ fn f32_solves_layers() {
     let contact = contact.materials(layer, Material::Rigid, PlaneState::Strain);
     let solution = contact.solve(Control::Load(1.342_633_9f32)).unwrap();
     assert!((solution.a() - 1.0).abs() < 2e-6, "{}", solution.a());
+    let below = solution.subsurface_of(Body::Lower).unwrap();
+    // Held, the bottom is not stretched.
+    let bottom = below.at(0.3, 1.0).unwrap();
+    assert!((0.7 * bottom.sigma_x - 0.3 * bottom.sigma_y).abs() < 4e-6, "{bottom:?}");
 }
 
 /// What half-planes bear, or bodies with the bend of another load, bounds no width and no peak.

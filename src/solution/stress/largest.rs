@@ -50,8 +50,7 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     pub(crate) fn largest_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
-        self.check_edges(|_, _, _| true)?;
-        self.check_tips(false)?;
+        self.check_surface(false)?;
         self.largest(|stress| Ok(stress.max_shear()))
     }
 
@@ -67,9 +66,17 @@ impl<T: Real> Subsurface<'_, T> {
 
     pub(crate) fn largest_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
         let poisson = checked_ratio(poisson)?;
-        self.check_edges(|_, _, _| true)?;
-        self.check_tips(poisson != T::of(0.5))?;
+        self.check_surface(poisson != T::of(0.5))?;
         self.largest(|stress| stress.von_mises(poisson))
+    }
+
+    /// Refuses edges and breakpoints at which the stress is infinite, if the surface is looked at.
+    fn check_surface(&self, at_all_tips: bool) -> Result<(), ContactError<T>> {
+        if self.depths[0] > T::zero() {
+            return Ok(());
+        }
+        self.check_edges(|_, _, _| true)?;
+        self.check_tips(at_all_tips)
     }
 
     /// Refuses edges of infinite pressure, if the stress is infinite for a side, its place and its

@@ -11,9 +11,8 @@ impl<T: Real> Subsurface<'_, T> {
     ///
     /// A body that is pulled towards positive x is stretched most at the left limit of a contact:
     /// with sliding friction by 2 μ p₀ under Hertz's pressure (Johnson, §7.1). The tension may be
-    /// larger inside a contact, where the pressure nearly vanishes. Without friction it is zero on a
-    /// half-plane, outside the contacts; a coating is stretched where it bends, in or beside a
-    /// contact.
+    /// larger inside a contact, where the pressure nearly vanishes. Without friction it is zero on
+    /// a half-plane, outside the contacts; a coating is stretched where it bends.
     ///
     /// # Errors
     /// [`EvaluationError::Singular`] where the tension is infinite: at an adhesive edge, and at an

@@ -3,11 +3,12 @@
 use super::oracle::stresses;
 use super::scenes::random_layer;
 use super::{RIGID, coated, half_plane, layer, parabola};
-use crate::common::{NanSafe, graph, worst};
+use crate::common::{NanSafe, graph, join, worst};
 use crate::random_scenes::Dice;
 use linecontact::stress::Subsurface;
 use linecontact::{
-    Base, Body, Contact, ContactError, Control, EvaluationError, Flat, Layer, Material, Solution,
+    Base, Body, Contact, ContactError, Control, Edge, EvaluationError, Flat, Layer, Material,
+    Solution,
 };
 use std::f64::consts::PI;
 
@@ -336,5 +337,39 @@ fn what_is_not_known_is_refused() {
     let solution = own.solve(Control::Load(0.2)).unwrap();
     for of in [Body::Lower, Body::Upper] {
         quantity(solution.subsurface_of(of).map(|_| ()).unwrap_err());
+    }
+}
+
+/// Below a punch, whose pressure is infinite at its corners, and a wedge, where it goes like a
+/// logarithm.
+#[test]
+fn corners_and_kinks() {
+    let coating = layer(1.0, 0.3, 0.4, half_plane(3.0, 0.2));
+    let flat = graph(-1.0, 1.0, |_| [0.0, 0.0]);
+    let punch = coated(&flat, coating, RIGID).edges(Edge::Fixed(-1.0), Edge::Fixed(1.0));
+    let punch = punch.solve(Control::Load(1.0)).unwrap();
+    let below = punch.subsurface_of(Body::Lower).unwrap();
+    let places = [[0.0, 0.2], [0.99, 0.4], [-1.2, 0.3], [0.5, 0.9]];
+    let expected = stresses(&punch, &coating, &places);
+    let off = most(places.iter().zip(&expected).flat_map(|(&[x, depth], expected)| {
+        let found = at(&below, x, depth);
+        [0, 1, 2].map(|i| found[i] - expected[i])
+    }));
+    assert!(off < 1e-10, "{off:e}");
+    for error in [below.at(1.0, 0.0).unwrap_err(), below.max_shear().unwrap_err()] {
+        let is_typed = matches!(error, ContactError::Evaluation(EvaluationError::Singular { .. }));
+        assert!(is_typed, "{error}");
+    }
+    let base = below.within([0.4, f64::INFINITY]).unwrap();
+    assert!(matches!(base.max_shear(), Ok(peak) if peak.depth >= 0.4 && peak.value > 0.1));
+
+    let side = |from: f64, to: f64, slope: f64| graph(from, to, move |x| [slope * x, slope]);
+    let wedge = join(vec![side(-3.0, 0.0, -0.3), side(0.0, 3.0, 0.3)]);
+    let wedge = coated(&wedge, coating, RIGID).solve(Control::Load(0.4)).unwrap();
+    let below = wedge.subsurface_of(Body::Lower).unwrap();
+    for x in [0.0, 1e-3, 0.1, 0.9] {
+        let [one, other] = [0.4, beyond(0.4)].map(|depth| at(&below, x, depth));
+        let off = most([one[1] - other[1], one[2] - other[2]]);
+        assert!(off < 1e-13, "{x}: {off:e}");
     }
 }
