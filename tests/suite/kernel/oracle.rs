@@ -35,12 +35,10 @@ impl Wave {
         let depth = wavenumber * layer.thickness;
         let mut rows = vec![vec![0.0; 7]; 6];
         let mut wave = Self { layer: *layer, depth, unknowns: Vec::new() };
-        for j in 0..4 {
+        for j in 0..SOLUTIONS.len() {
             let (top, bottom) = (wave.own(j, 0.0), wave.own(j, depth));
-            (rows[0][j], rows[1][j]) = (top[0], top[1]);
-            for i in 0..4 {
-                rows[2 + i][j] = bottom[i];
-            }
+            let conditions = top[..2].iter().chain(&bottom[..4]);
+            rows.iter_mut().zip(conditions).for_each(|(row, value)| row[j] = *value);
         }
         rows[0][6] = -1.0;
         match layer.base {
