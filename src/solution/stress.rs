@@ -185,7 +185,8 @@ impl<T: Real> Solution<'_, T> {
         T::subsurface(self, None)
     }
 
-    /// Prepares the stress below the surface of one body: a half-plane, or one with a layer.
+    /// Prepares the stress below the surface of one body: a half-plane, or one with a layer. There
+    /// a stress costs more the wider the contacts are beside the thickness.
     ///
     /// ```
     /// use linecontact::profile::Parabola;
@@ -251,14 +252,15 @@ impl<T: Real> Subsurface<'_, T> {
     /// either sign. Default 0.
     ///
     /// # Errors
-    /// [`InputError::InvalidFriction`] if μ is not finite; [`EvaluationError::HalfPlanesOnly`]
-    /// beside a layer, on which a traction changes the pressure, too.
+    /// [`InputError::InvalidFriction`] if μ is not finite; [`EvaluationError::HalfPlanesOnly`] if
+    /// either body has a layer, on which a traction changes the pressure, too.
     pub fn friction(self, coefficient: T) -> Result<Self, ContactError<T>> {
         if !coefficient.is_finite() {
             return Err(InputError::InvalidFriction { coefficient }.into());
         }
-        if !coefficient.is_zero() {
-            self.solution.solved().of_half_planes("the stress of friction")?;
+        if !coefficient.is_zero() && self.solution.layer(None).is_err() {
+            let quantity = "the stress of friction";
+            return Err(EvaluationError::HalfPlanesOnly { quantity }.into());
         }
         Ok(Self { friction: coefficient, ..self })
     }

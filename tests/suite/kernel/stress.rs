@@ -187,7 +187,8 @@ fn limits_of_equal_materials_and_of_thick_layers() {
         let off = compare(&solve(layer(1.0, 0.3, thickness, Base::Bonded)), &[0.0, 0.5, 3.0]);
         assert!(off < 0.4 / thickness, "{thickness}: {off:e}");
     }
-    // No tension on a half-plane.
+    // No tension on a half-plane; and what is refused does not depend on the materials.
+    assert!(same.subsurface_of(Body::Upper).unwrap().friction(0.1).is_err());
     let below = same.subsurface_of(Body::Lower).unwrap();
     let tension = below.max_tension().unwrap();
     assert!(tension.value < 1e-15, "{tension:?}");
