@@ -168,16 +168,16 @@ impl<T: Real> Coating<T> {
     /// Returns K - 1, to rounding relative to itself: every sum is one of positive terms.
     pub fn excess(&self, xi: T) -> T {
         let (one, two, four) = (T::one(), T::of(2.0), T::of(4.0));
-        let (decay, rest) = decays(xi);
+        let [decay, rest] = decays(xi);
         let Some([less_lambda, less_chi]) = self.bonded else {
-            return -two * decay * (two * xi + rest) / delta_of_slip(xi);
+            return -two * decay * (two * xi + rest) / delta_of_slip(xi, decay);
         };
         let (lambda, chi) = (one - less_lambda, one - less_chi);
         let sum = lambda * less_chi
             + chi * less_lambda
             + four * chi * xi * (one + xi)
             + two * lambda * chi * rest;
-        decay * sum / delta([less_lambda, less_chi], xi)
+        decay * sum / delta([less_lambda, less_chi], xi, [decay, rest])
     }
 
     /// Returns `[K - 1, D, A, B]` of the stress function of a wave of pressure, with `ζ = ω y` at a
@@ -191,14 +191,14 @@ impl<T: Real> Coating<T> {
     /// ```
     pub fn amplitudes(&self, xi: T) -> [T; 4] {
         let (zero, two) = (T::zero(), T::of(2.0));
-        let (decay, rest) = decays(xi);
+        let [decay, rest] = decays(xi);
         let Some([less_lambda, less_chi]) = self.bonded else {
-            return [self.excess(xi), -decay * rest / delta_of_slip(xi), zero, zero];
+            return [self.excess(xi), -decay * rest / delta_of_slip(xi, decay), zero, zero];
         };
         let (lambda, chi) = (T::one() - less_lambda, T::one() - less_chi);
         let u = less_chi + chi * (rest + two * xi * decay);
         let v = less_lambda + lambda * rest + two * xi;
-        let share = delta([less_lambda, less_chi], xi).recip();
+        let share = delta([less_lambda, less_chi], xi, [decay, rest]).recip();
         let (first, second) = (less_lambda * u, less_chi * v);
         let base = [T::of(0.5) * (first + second), first].map(|a| share * (-xi).exp() * a);
         [self.excess(xi), share * chi * decay * v, base[0], base[1]]
@@ -206,15 +206,15 @@ impl<T: Real> Coating<T> {
 }
 
 /// Returns E and 1 - E.
-fn decays<T: Real>(xi: T) -> (T, T) {
+fn decays<T: Real>(xi: T) -> [T; 2] {
     let twice = -T::of(2.0) * xi;
-    (twice.exp(), -twice.exp_m1())
+    [twice.exp(), -twice.exp_m1()]
 }
 
-/// Returns Δ, given `1 - λ` and `1 - χ`.
-fn delta<T: Real>([less_lambda, less_chi]: [T; 2], xi: T) -> T {
+/// Returns Δ, given `1 - λ`, `1 - χ`, E and 1 - E.
+fn delta<T: Real>([less_lambda, less_chi]: [T; 2], xi: T, [decay, rest]: [T; 2]) -> T {
     let (one, four) = (T::one(), T::of(4.0));
-    let ((decay, rest), lambda, chi) = (decays(xi), one - less_lambda, one - less_chi);
+    let (lambda, chi) = (one - less_lambda, one - less_chi);
     if chi < T::zero() {
         (one - lambda * decay) * (one - chi * decay) - four * chi * xi * xi * decay
     } else {
@@ -225,10 +225,10 @@ fn delta<T: Real>([less_lambda, less_chi]: [T; 2], xi: T) -> T {
     }
 }
 
-/// Returns `1 + 4ξE - E²`.
-fn delta_of_slip<T: Real>(xi: T) -> T {
+/// Returns `1 + 4ξE - E²`, given E.
+fn delta_of_slip<T: Real>(xi: T, decay: T) -> T {
     let four = T::of(4.0);
-    four * xi * decays(xi).0 - (-four * xi).exp_m1()
+    four * xi * decay - (-four * xi).exp_m1()
 }
 
 /// Returns `(sinh²ξ - ξ²) exp(-2ξ)`, given the exponential.
