@@ -11,7 +11,7 @@ pub(crate) use crate::quadrature::{Integrator, Panels};
 pub(crate) use crate::solution::{Approaching, certify};
 pub(crate) use crate::stress::{Stress, StressPeak, Subsurface};
 pub(crate) use crate::{
-    Approach, Certificate, Contact, ContactError, ContactRegion, Control, Extremum,
+    Approach, Body, Certificate, Contact, ContactError, ContactRegion, Control, Extremum,
 };
 pub(crate) use crate::{LoadRates, Peak, Pressure, References, Solution, Solver, SpringTable};
 
@@ -52,7 +52,8 @@ macro_rules! entries {
             = Approaching::new(of.solved(), of.elasticity, to)?.of_all();
         approach_rate(of: &Solution<'_, Self>, to: &References<Self>) -> Self
             = Approaching::new(of.solved(), of.elasticity, to)?.rate();
-        subsurface<'s>(of: &'s Solution<'_, Self>) -> Subsurface<'s, Self> = of.below();
+        subsurface<'s>(of: &'s Solution<'_, Self>, body: Option<Body>) -> Subsurface<'s, Self>
+            = of.below(body);
         stress(below: &Subsurface<'_, Self>, x: Self, depth: Self) -> Stress<Self>
             = below.stress(x, depth);
         largest_shear(below: &Subsurface<'_, Self>) -> StressPeak<Self> = below.largest_shear();

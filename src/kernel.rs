@@ -26,8 +26,8 @@ pub(crate) use bend::Bend;
 pub(crate) use correction::{Correction, Kept, punch};
 pub(crate) use layers::Layers;
 pub(crate) use periodic::Periodic;
-pub(crate) use spread::Spread;
-pub(crate) use table::Table;
+pub(crate) use spread::{Loads, Spread};
+pub(crate) use table::{Table, wavenumbers};
 
 use crate::{Interval, Real};
 use std::sync::Arc;

@@ -21,6 +21,8 @@ mod finite_roller;
 mod fuzz;
 #[path = "../examples/gear_mesh.rs"]
 mod gear_mesh;
+#[path = "../examples/hard_coating.rs"]
+mod hard_coating;
 #[path = "../examples/hard_scenes/main.rs"]
 mod hard_scenes;
 #[path = "../examples/measured_profile.rs"]
@@ -63,7 +65,7 @@ macro_rules! program {
 }
 
 /// Programs, the longest first.
-const PROGRAMS: [Program; 20] = [
+const PROGRAMS: [Program; 21] = [
     program!(fuzz "0" "2000"),
     program!(measured_profile),
     program!(speed_vs_error "--check"),
@@ -76,6 +78,7 @@ const PROGRAMS: [Program; 20] = [
     program!(custom_profile),
     program!(finite_roller),
     program!(gear_mesh),
+    program!(hard_coating),
     program!(paper),
     program!(pieces),
     program!(printing_nip),

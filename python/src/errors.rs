@@ -205,6 +205,7 @@ table! {
     EvaluationError, "", EVALUATION, transparent: [];
     Singular { x };
     AboveSurface { x, depth };
+    NoStress { depths };
     OutsideTable { approach, range };
     SliceOutsideTable { z, approach, range };
     InvalidPosition { x, inside, interval };

@@ -2,7 +2,7 @@
 
 use crate::call::{self, Array, Numbers};
 use crate::control::{ReferenceRow, references};
-use linecontact::stress::{Stress, StressPeak};
+use linecontact::stress::{Stress, StressPeak, Subsurface};
 use linecontact::{
     Body, ContactError, Cost, Ends, Extremum, Interval, Outcome, Peak, Pressure, Start, Uncertainty,
 };
@@ -102,6 +102,23 @@ fn body(name: &str) -> PyResult<Body> {
 }
 
 impl Solution {
+    /// Prepares the stress below one body, or below both alike, from one depth to another.
+    fn below(
+        &self,
+        of: Option<Body>,
+        depths: Option<Pair>,
+        friction: f64,
+    ) -> Result<Subsurface<'_, f64>, ContactError<f64>> {
+        let mut below = match of {
+            Some(of) => self.0.subsurface_of(of)?,
+            None => self.0.subsurface()?,
+        };
+        if let Some((from, to)) = depths {
+            below = below.within([from, to])?;
+        }
+        below.friction(friction)
+    }
+
     /// Tells whether a place is in a contact, where there is no gap.
     fn touches(&self, x: f64) -> bool {
         self.0.intervals().iter().any(|on| x >= on.left && x <= on.right)
@@ -249,29 +266,46 @@ impl Solution {
     fn stress(
         &self,
         py: Python<'_>,
+        of: Option<&str>,
         x: Numbers<'_>,
         depth: Numbers<'_>,
         friction: f64,
     ) -> PyResult<[Array; 3]> {
+        let of = of.map(body).transpose()?;
         let (x, depth) = (x.as_array().to_vec(), depth.as_array().to_vec());
         let found = call::library(py, || {
-            let subsurface = self.0.subsurface()?.friction(friction)?;
+            let subsurface = self.below(of, None, friction)?;
             stresses((&x, &depth), |x, depth| subsurface.at(x, depth))
         })?;
         Ok(found.map(|stress| call::array(py, stress)))
     }
 
-    fn max_shear(&self, py: Python<'_>, friction: f64) -> PyResult<Largest> {
-        call::library(py, || self.0.subsurface()?.friction(friction)?.max_shear()).map(largest)
+    fn max_shear(
+        &self,
+        py: Python<'_>,
+        of: Option<&str>,
+        depths: Option<Pair>,
+        friction: f64,
+    ) -> PyResult<Largest> {
+        let of = of.map(body).transpose()?;
+        call::library(py, || self.below(of, depths, friction)?.max_shear()).map(largest)
     }
 
-    fn max_von_mises(&self, py: Python<'_>, poisson: f64, friction: f64) -> PyResult<Largest> {
-        call::library(py, || self.0.subsurface()?.friction(friction)?.max_von_mises(poisson))
-            .map(largest)
+    fn max_von_mises(
+        &self,
+        py: Python<'_>,
+        of: Option<&str>,
+        depths: Option<Pair>,
+        poisson: f64,
+        friction: f64,
+    ) -> PyResult<Largest> {
+        let of = of.map(body).transpose()?;
+        call::library(py, || self.below(of, depths, friction)?.max_von_mises(poisson)).map(largest)
     }
 
-    fn max_tension(&self, py: Python<'_>, friction: f64) -> PyResult<Pair> {
-        call::library(py, || self.0.subsurface()?.friction(friction)?.max_tension()).map(extremum)
+    fn max_tension(&self, py: Python<'_>, of: Option<&str>, friction: f64) -> PyResult<Pair> {
+        let of = of.map(body).transpose()?;
+        call::library(py, || self.below(of, None, friction)?.max_tension()).map(extremum)
     }
 
     fn gap(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {

@@ -428,6 +428,16 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"length": -1.0},
     ),
     (lambda: solved().pressure(5.0), "OutsideBodiesError", {"x": 5.0, "range": (-1.0, 1.0)}),
+    (
+        lambda: layered(1.0).solve(load=100.0).max_tension(),
+        "HalfPlanesOnlyError",
+        {"quantity": "the stress below the surface of both bodies at once"},
+    ),
+    (
+        lambda: layered(1.0).solve(load=100.0).stress(0.0, 1.5, body="upper"),
+        "NoStressError",
+        {"depths": (1.5, 1.5)},
+    ),
     (lambda: solved().stress(0.0, -1.0), "AboveSurfaceError", {"x": 0.0, "depth": -1.0}),
     (lambda: solved().residual(0.5), "InvalidPositionError", {"x": 0.5, "inside": True}),
     (

@@ -309,6 +309,30 @@ def test_a_layer_like_its_base_is_none_and_a_thin_one_a_row_of_springs() -> None
     assert math.isclose(solution.peak().pressure, 0.75 * load / a, rel_tol=2e-5)
 
 
+def test_the_stress_in_a_coating_and_in_its_base() -> None:
+    h, hard = 0.003, lc.Material(400e3, 0.25)
+    solution = lc.solve(FLAT, BODY, materials=(lc.Layer(hard, h, STEEL), STEEL), half_width=0.009)
+    x = np.array([0.0, 0.004, 0.012])
+    surface = solution.stress(x, 0.0, body="lower")
+    np.testing.assert_allclose(surface.sigma_y[:2], -solution.pressure(x[:2]), rtol=1e-14)
+    layer, base = (solution.stress(x, depth, body="lower") for depth in (h, np.nextafter(h, 1.0)))
+    np.testing.assert_allclose(layer.sigma_y, base.sigma_y, rtol=1e-11)
+    np.testing.assert_allclose(layer.tau_xy, base.tau_xy, atol=1e-13 * solution.peak().pressure)
+    # Both are stretched alike along the interface.
+    strains = [
+        (1 + nu) / e * ((1 - nu) * side.sigma_x - nu * side.sigma_y)
+        for (e, nu), side in ((hard, layer), (STEEL, base))
+    ]
+    np.testing.assert_allclose(strains[0], strains[1], rtol=1e-11)
+    largest = [solution.max_shear(body="lower", depths=depths) for depths in ((0.0, h), (h, math.inf))]
+    assert largest[0].depth <= h < largest[1].depth
+    assert solution.max_shear(body="lower") == max(largest, key=lambda one: one.value)
+    assert solution.max_von_mises(0.3, body="lower", depths=(h, 1.0)).value > largest[1].value
+    assert solution.max_tension(body="lower").value > 0.0 == solution.max_tension(body="upper").value
+    with pytest.raises(ValueError, match="'lower' or 'upper'"):
+        solution.max_tension(body="left")  # type: ignore[arg-type]
+
+
 def test_what_else_pickles() -> None:
     contact = lc.Contact(FLAT, BODY, materials=(STEEL, STEEL))
     slip = contact.partial_slip(friction=0.4, force=10.0, load=100.0)

@@ -29,6 +29,15 @@ pub enum EvaluationError<T: Real> {
         /// Depth below the surface.
         depth: T,
     },
+    /// There is no elastic material at some depths.
+    #[error(
+        "no stress at depths from {} to {}: they begin at 0, on the surface, rise, and end at a rigid base",
+        apart(depths[0], &[depths[1]]), apart(depths[1], &[depths[0]])
+    )]
+    NoStress {
+        /// Depths asked for, twice the same if it is one.
+        depths: [T; 2],
+    },
     /// The table of a spring does not cover this approach.
     #[error(
         "the table covers approaches from {}, not {}: make it for a wider range of loads (apart, the bodies bear none)",

@@ -33,8 +33,6 @@ impl<T: Real> SurfaceCompliance<T> for Layers<T> {
     }
 
     fn longest(&self) -> T {
-        let length =
-            |layer: &Coating<T>| layer.thickness * (T::one() + layer.at_zero).max(T::one());
-        self.layers.iter().fold(T::zero(), |most, (_, layer)| most.max(length(layer)))
+        self.layers.iter().fold(T::zero(), |most, (_, layer)| most.max(layer.longest()))
     }
 }

@@ -105,7 +105,8 @@ impl<T: Real> Nodes<T> {
 
 /// Pressures as loads at nodes.
 pub(crate) struct Loads<T> {
-    nodes: Vec<[T; 2]>,
+    /// Places and their loads.
+    pub nodes: Vec<[T; 2]>,
 }
 
 impl<T: Real> Loads<T> {

@@ -185,9 +185,9 @@ impl<T: Real> RegularKernel<T> for Table<T> {
     }
 }
 
-/// Calls a function for the nodes and the weights of a rule in ω for distances from `least` to
-/// `most`, or for the wavenumbers of a period.
-fn wavenumbers<T: Real>(
+/// Calls a function for the nodes and the weights of a rule in ω, rising, for distances from
+/// `least` to `most`, or for the wavenumbers of a period.
+pub(crate) fn wavenumbers<T: Real>(
     of: &dyn SurfaceCompliance<T>,
     period: Option<T>,
     [least, most]: [T; 2],

@@ -155,28 +155,80 @@ fn constants<T: Real>(layer: &Elasticity<T>, base: &Elasticity<T>) -> [T; 2] {
 }
 
 impl<T: Real> Coating<T> {
+    /// Returns the longest length on which K changes.
+    pub fn longest(&self) -> T {
+        self.thickness * (T::one() + self.at_zero).max(T::one())
+    }
+
+    /// Tells whether the base is rigid.
+    pub fn is_on_rigid(&self) -> bool {
+        self.at_zero == -T::one()
+    }
+
     /// Returns K - 1, to rounding relative to itself: every sum is one of positive terms.
     pub fn excess(&self, xi: T) -> T {
         let (one, two, four) = (T::one(), T::of(2.0), T::of(4.0));
-        let (decay, rest) = ((-two * xi).exp(), -(-two * xi).exp_m1());
+        let [decay, rest] = decays(xi);
         let Some([less_lambda, less_chi]) = self.bonded else {
-            return -two * decay * (two * xi + rest) / (four * xi * decay - (-four * xi).exp_m1());
+            return -two * decay * (two * xi + rest) / delta_of_slip(xi, decay);
         };
         let (lambda, chi) = (one - less_lambda, one - less_chi);
         let sum = lambda * less_chi
             + chi * less_lambda
             + four * chi * xi * (one + xi)
             + two * lambda * chi * rest;
-        let delta = if chi < T::zero() {
-            (one - lambda * decay) * (one - chi * decay) - four * chi * xi * xi * decay
-        } else {
-            less_lambda * less_chi
-                + less_lambda * chi * decay * rest
-                + less_chi * lambda * rest
-                + four * chi * squares(xi, decay)
-        };
-        decay * sum / delta
+        decay * sum / delta([less_lambda, less_chi], xi, [decay, rest])
     }
+
+    /// Returns `[K - 1, D, A, B]` of the stress function of a wave of pressure, with `ζ = ω y` at a
+    /// depth y and `η = ζ - ξ`:
+    ///
+    /// ```text
+    /// φ = (1 + ζ)e^{-ζ} + (K - 1)(ζe^{-ζ} - sinh ζ) + 2Dζ sinh ζ         in the layer
+    /// φ = (A + Bη) e^{-η}                                                in an elastic base
+    /// D = χEV/Δ,   A = e^{-ξ}((1 - λ)U + (1 - χ)V)/(2Δ),   B = e^{-ξ}(1 - λ)U/Δ
+    /// U = 1 - χ(1 - 2ξ)E,   V = 1 + 2ξ - λE;   D = -E(1 - E)/(1 + 4ξE - E²)   without friction
+    /// ```
+    pub fn amplitudes(&self, xi: T) -> [T; 4] {
+        let (zero, two) = (T::zero(), T::of(2.0));
+        let [decay, rest] = decays(xi);
+        let Some([less_lambda, less_chi]) = self.bonded else {
+            return [self.excess(xi), -decay * rest / delta_of_slip(xi, decay), zero, zero];
+        };
+        let (lambda, chi) = (T::one() - less_lambda, T::one() - less_chi);
+        let u = less_chi + chi * (rest + two * xi * decay);
+        let v = less_lambda + lambda * rest + two * xi;
+        let share = delta([less_lambda, less_chi], xi, [decay, rest]).recip();
+        let (first, second) = (less_lambda * u, less_chi * v);
+        let base = [T::of(0.5) * (first + second), first].map(|a| share * (-xi).exp() * a);
+        [self.excess(xi), share * chi * decay * v, base[0], base[1]]
+    }
+}
+
+/// Returns E and 1 - E.
+fn decays<T: Real>(xi: T) -> [T; 2] {
+    let twice = -T::of(2.0) * xi;
+    [twice.exp(), -twice.exp_m1()]
+}
+
+/// Returns Δ, given `1 - λ`, `1 - χ`, E and 1 - E.
+fn delta<T: Real>([less_lambda, less_chi]: [T; 2], xi: T, [decay, rest]: [T; 2]) -> T {
+    let (one, four) = (T::one(), T::of(4.0));
+    let (lambda, chi) = (one - less_lambda, one - less_chi);
+    if chi < T::zero() {
+        (one - lambda * decay) * (one - chi * decay) - four * chi * xi * xi * decay
+    } else {
+        less_lambda * less_chi
+            + less_lambda * chi * decay * rest
+            + less_chi * lambda * rest
+            + four * chi * squares(xi, decay)
+    }
+}
+
+/// Returns `1 + 4ξE - E²`, given E.
+fn delta_of_slip<T: Real>(xi: T, decay: T) -> T {
+    let four = T::of(4.0);
+    four * xi * decay - (-four * xi).exp_m1()
 }
 
 /// Returns `(sinh²ξ - ξ²) exp(-2ξ)`, given the exponential.

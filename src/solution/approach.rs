@@ -150,7 +150,7 @@ fn absolute_lengths<T: Real>(
 ) -> Result<[Option<[T; 2]>; 2], ContactError<T>> {
     let Some(bend) = solved.gap.bend() else { return Ok([None; 2]) };
     let kernel = bend.kernel_of_bodies();
-    let is_rigid = |body: &Elasticity<T>| body.layer.map(|layer| layer.at_zero == -T::one());
+    let is_rigid = |body: &Elasticity<T>| body.layer.map(|layer| layer.is_on_rigid());
     let share = |i: usize| bodies[i].compliance / (bodies[0].compliance + bodies[1].compliance);
     if let Some(period) = kernel.period_of_half_planes() {
         // ln|2 sin(π(x - s)/p)| is zero on average.

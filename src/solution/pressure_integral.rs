@@ -19,6 +19,7 @@
 mod graded_rule;
 
 use super::solved::Solved;
+use crate::kernel::{Kernel, Spread};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{ContactError, Ends, EvaluationError, Interval, Pressure, Real};
 use graded_rule::GradedRule;
@@ -126,9 +127,18 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         }
     }
 
+    /// Returns the pressures by as many coefficients as reach a kernel.
+    pub fn spreads(&self, kernel: &Kernel<'_, T>) -> Result<Vec<Spread<T>>, ContactError<T>> {
+        let spread = |(i, &One { on, .. }): (usize, &One<T>)| {
+            let [_, some, most] = kernel.terms(on);
+            Ok(Spread { on, q: self.coefficients(i, [some, most])? })
+        };
+        self.contacts.iter().enumerate().map(spread).collect()
+    }
+
     /// Returns the coefficients q_k of `P = Σ q_k cos kθ/(π L sin θ)` in one contact, at least some
     /// of them, and more until they vanish, up to a count.
-    pub fn coefficients(
+    fn coefficients(
         &self,
         contact: usize,
         [some, most]: [usize; 2],

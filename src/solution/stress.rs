@@ -22,6 +22,10 @@
 //! over the lower one, the lower has μ, and the upper -μ. Such a traction leaves the pressure
 //! unchanged only for like bodies, or for small μ (Johnson, §7.2).
 //!
+//! **Layers.** A body with a [layer](crate::Layer) has a stress of its own:
+//! [`Solution::subsurface_of`]. In the layer a sum over wavenumbers adds to the stress of the
+//! half-plane, in the base a sum is all of it. The half-plane beside it has the stress above.
+//!
 //! **Accuracy.** The integrals follow from one function of ζ = x + i y and its derivative,
 //!
 //! ```text
@@ -51,13 +55,15 @@
 //! ```
 
 mod largest;
+mod layered;
 mod tension;
 
 use super::pressure_integral::Density;
 use crate::gap::Sampler;
-use crate::material::checked_ratio;
+use crate::material::{Coating, checked_ratio};
 use crate::quadrature::panels::CauchyTransform;
-use crate::{ContactError, EvaluationError, InputError, Interval, Pressure, Real, Solution};
+use crate::{Body, ContactError, EvaluationError, InputError, Interval, Pressure, Real, Solution};
+use layered::Layered;
 
 /// Stress in plane strain: a pressure; tension is positive.
 ///
@@ -145,6 +151,10 @@ pub struct Subsurface<'p, T: Real> {
     solution: &'p Solution<'p, T>,
     pressure: Pressure<'p, T>,
     transform: CauchyTransform<T>,
+    /// Layer on this body.
+    layered: Option<Box<Layered<T>>>,
+    /// Depths at which the largest stress is looked for.
+    depths: [T; 2],
     friction: T,
     /// Stress below the contact under P*, if the contact sticks there: the traction is μ (P - P*).
     stick: Option<Box<Self>>,
@@ -163,20 +173,77 @@ pub struct StressPeak<T> {
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// Prepares the stress below the surface. With [`Panels`](crate::Panels) this takes no sample
-    /// of the bodies; after another quadrature it samples panels on the contact.
+    /// Prepares the stress below the surface of two half-planes, the same in both. With
+    /// [`Panels`](crate::Panels) this takes no sample of the bodies; after another quadrature it
+    /// samples panels on the contact.
     ///
     /// # Errors
-    /// Those of [`pressure`](Self::pressure).
+    /// Those of [`pressure`](Self::pressure); [`EvaluationError::HalfPlanesOnly`] if a body has a
+    /// layer, [`subsurface_of`](Self::subsurface_of) tells which one is meant, and with another
+    /// kernel.
     pub fn subsurface(&self) -> Result<Subsurface<'_, T>, ContactError<T>> {
-        self.solved().of_half_planes("the stress below the surface")?;
-        T::subsurface(self)
+        T::subsurface(self, None)
     }
 
-    pub(crate) fn below(&self) -> Result<Subsurface<'_, T>, ContactError<T>> {
-        let (pressure, friction) = (self.pressure()?, T::zero());
-        let transform = pressure.cauchy_transform()?;
-        Ok(Subsurface { solution: self, pressure, transform, friction, stick: None })
+    /// Prepares the stress below the surface of one body: a half-plane, or one with a layer. There
+    /// a stress costs more the wider the contacts are beside the thickness.
+    ///
+    /// ```
+    /// use linecontact::profile::Parabola;
+    /// use linecontact::{Base, Body, Contact, Control, Flat, Layer, Material, PlaneState};
+    ///
+    /// // A hard coating of 3 µm on steel: mm, MPa, N/mm.
+    /// let steel = Material::elastic(210e3, 0.3);
+    /// let (material, base) = (Material::elastic(400e3, 0.25), Base::HalfPlane(steel));
+    /// let roller = Parabola::new(1.0, [-0.1, 0.1])?;
+    /// let contact = Contact::new(&Flat, &roller)?;
+    /// let coated = Layer { material, thickness: 3e-3, base };
+    /// let contact = contact.materials(coated, steel, PlaneState::Strain);
+    /// let solution = contact.solve(Control::HalfWidth(9e-3))?;
+    /// let below = solution.subsurface_of(Body::Lower)?;
+    /// // σ_x jumps at the interface.
+    /// let (layer, base) = (below.at(0.0, 3e-3)?, below.at(0.0, 3e-3 * (1.0 + 1e-15))?);
+    /// assert!((layer.sigma_y / base.sigma_y - 1.0f64).abs() < 1e-12);
+    /// assert!((layer.sigma_x / base.sigma_x - 1.0).abs() > 0.1);
+    /// // The largest stress in the steel.
+    /// let base = below.within([3e-3, f64::INFINITY])?.max_von_mises(0.3)?;
+    /// assert!(base.depth > 3e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`pressure`](Self::pressure); [`EvaluationError::HalfPlanesOnly`] with a kernel
+    /// besides layers, whose stress is not known.
+    pub fn subsurface_of(&self, body: Body) -> Result<Subsurface<'_, T>, ContactError<T>> {
+        T::subsurface(self, Some(body))
+    }
+
+    pub(crate) fn below(&self, body: Option<Body>) -> Result<Subsurface<'_, T>, ContactError<T>> {
+        let layer = self.layer(body)?;
+        let (pressure, zero) = (self.pressure()?, T::zero());
+        let layered = layer.map(|layer| Layered::new(layer, self.solved()).map(Box::new));
+        Ok(Subsurface {
+            solution: self,
+            transform: pressure.cauchy_transform()?,
+            pressure,
+            layered: layered.transpose()?,
+            depths: [zero, T::one() / zero],
+            friction: zero,
+            stick: None,
+        })
+    }
+
+    /// Returns the layer of a body, if it has one. Both are meant if none is named.
+    fn layer(&self, body: Option<Body>) -> Result<Option<Coating<T>>, ContactError<T>> {
+        let layers = self.elasticity.map_or([None; 2], |bodies| bodies.map(|body| body.layer));
+        let is_known = self.gap.bend().is_none_or(|bend| bend.kernel_of_bodies().is_of_layers);
+        let quantity = match body {
+            Some(body) if is_known => return Ok(layers[body as usize]),
+            None if is_known && layers.iter().all(Option::is_none) => return Ok(None),
+            None if is_known => "the stress below the surface of both bodies at once",
+            _ => "the stress below the surface",
+        };
+        Err(EvaluationError::HalfPlanesOnly { quantity }.into())
     }
 }
 
@@ -185,26 +252,66 @@ impl<T: Real> Subsurface<'_, T> {
     /// either sign. Default 0.
     ///
     /// # Errors
-    /// [`InputError::InvalidFriction`] if μ is not finite.
+    /// [`InputError::InvalidFriction`] if μ is not finite; [`EvaluationError::HalfPlanesOnly`] if
+    /// either body has a layer, on which a traction changes the pressure, too.
     pub fn friction(self, coefficient: T) -> Result<Self, ContactError<T>> {
         if !coefficient.is_finite() {
             return Err(InputError::InvalidFriction { coefficient }.into());
         }
+        if !coefficient.is_zero() && self.solution.layer(None).is_err() {
+            let quantity = "the stress of friction";
+            return Err(EvaluationError::HalfPlanesOnly { quantity }.into());
+        }
         Ok(Self { friction: coefficient, ..self })
+    }
+
+    /// Looks for the largest shear and von Mises stress only from one depth to another, which may
+    /// be infinite: in a hardened zone, in a layer, or in its base. Depths that begin at an
+    /// interface begin in the base, and those that end there end in the layer.
+    ///
+    /// # Errors
+    /// [`EvaluationError::NoStress`] for depths that do not rise from zero or more on, and in a
+    /// rigid base.
+    pub fn within(mut self, depths: [T; 2]) -> Result<Self, ContactError<T>> {
+        self.depths = depths;
+        let is_valid = depths[0] >= T::zero() && depths[1] > depths[0];
+        if !is_valid || self.materials().is_empty() {
+            return Err(EvaluationError::NoStress { depths }.into());
+        }
+        Ok(self)
+    }
+
+    /// Lists the depths of each material, of those at which stress is looked for.
+    fn materials(&self) -> Vec<[T; 2]> {
+        let [from, to] = self.depths;
+        let whole = [T::zero(), T::one() / T::zero()];
+        let mut depths = self.layered.as_ref().map_or(vec![whole], |layered| layered.materials());
+        depths.iter_mut().for_each(|[top, bottom]| {
+            (*top, *bottom) = (top.max(from), bottom.min(to));
+        });
+        depths.retain(|[top, bottom]| top < bottom);
+        depths
     }
 
     /// Returns the stress at any x, at any depth from zero on. Depths below ε³ L count as zero.
     ///
+    /// At the interface of a layer and its base σ_x jumps; at its very depth the stress is that of
+    /// the layer, and just below, as at `depth * (1.0 + f64::EPSILON)`, that of the base.
+    ///
     /// # Errors
     /// [`EvaluationError::AboveSurface`] for a depth that is negative, and for numbers that are not
-    /// finite; [`EvaluationError::Singular`] on the surface where the pressure is infinite; on the
-    /// surface, with friction, those of sampling the gap.
+    /// finite; [`EvaluationError::NoStress`] in a rigid base; [`EvaluationError::Singular`] on the
+    /// surface where the pressure is infinite; on the surface, with friction, those of sampling the
+    /// gap.
     pub fn at(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
         T::stress(self, x, depth)
     }
 
     pub(crate) fn stress(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
-        let [normal, along] = self.parts(x, depth, !self.friction.is_zero())?;
+        let [mut normal, along] = self.parts(x, depth, !self.friction.is_zero())?;
+        if let Some(layered) = &self.layered {
+            normal = layered.stress(normal, x, depth)?;
+        }
         let stress = normal.with(self.friction, along);
         match &self.stick {
             Some(stick) => Ok(stress.with(-self.friction, stick.parts(x, depth, true)?[1])),

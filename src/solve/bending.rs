@@ -444,7 +444,6 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     /// Corrects the pressures of a solve.
     fn correct(&mut self, solved: &Solve<'b, T>) -> Result<Option<Correction<T>>, ContactError<T>> {
         let (found, kappa) = (&solved.found, self.contact.kappa);
-        let contacts = panels::contacts(self.work.integrator, &found.interval).to_vec();
         let gap = &solved.gap.tilted(found.tilt);
         let pressures = Solved { gap, integrator: &*self.work.integrator, kappa, found };
         let kept = match self.control {
@@ -453,13 +452,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             Control::Moment { .. } | Control::CentreOfPressure { .. } => Kept::Moment(kappa),
             _ => Kept::Load,
         };
-        let integrals = Integrals::new(pressures)?;
-        let spread = |(i, &on): (usize, &Interval<T>)| {
-            let [_, some, most] = self.kernel.terms(on);
-            Ok(Spread { on, q: integrals.coefficients(i, [some, most])? })
-        };
-        let spreads = contacts.iter().enumerate().map(spread);
-        let spreads = spreads.collect::<Result<Vec<_>, ContactError<T>>>()?;
+        let spreads = Integrals::new(pressures)?.spreads(&self.kernel)?;
         let correction = Correction::new(&self.kernel, solved.gap.bend(), spreads, kept);
         correction.map_err(|at| {
             InputError::Kernel { what: "K(x, s), or its integral by x, is not finite at x", at }

@@ -6,12 +6,13 @@ mod periodic;
 mod rates;
 mod refused;
 mod scenes;
+mod stress;
 
 use crate::common::{Profile, graph, join, kernel_values};
 use linecontact::profile::{Line, Parabola};
 use linecontact::reference::Westergaard;
 use linecontact::{
-    Base, Contact, Control, Edge, Flat, Foundation, Layer, Material, PlaneState, Reference,
+    Base, Body, Contact, Control, Edge, Flat, Foundation, Layer, Material, PlaneState, Reference,
     References, RegularKernel, Solution, Solver, SurfaceCompliance,
 };
 use std::f64::consts::PI;
@@ -238,11 +239,15 @@ impl SurfaceCompliance<f64> for Frictionless {
     }
 }
 
+pub fn own_compliance() -> Arc<dyn SurfaceCompliance<f64>> {
+    Arc::new(Frictionless)
+}
+
 #[test]
 fn a_compliance_of_ones_own_is_that_of_the_layer() {
     let body = parabola(6.0);
     let own = Contact::new(&Flat, &*body).unwrap().contact_modulus(1.0 / 0.91);
-    let own = own.compliance(Arc::new(Frictionless)).solve(Control::Load(1.0)).unwrap();
+    let own = own.compliance(own_compliance()).solve(Control::Load(1.0)).unwrap();
     let layered = coated(&body, layer(1.0, 0.3, 1.0, Base::Frictionless), RIGID);
     let layered = layered.solve(Control::Load(1.0)).unwrap();
     assert!((own.a() / layered.a() - 1.0).abs() < 1e-14);
@@ -279,6 +284,10 @@ fn f32_solves_layers() {
     let contact = contact.materials(layer, Material::Rigid, PlaneState::Strain);
     let solution = contact.solve(Control::Load(1.342_633_9f32)).unwrap();
     assert!((solution.a() - 1.0).abs() < 2e-6, "{}", solution.a());
+    let below = solution.subsurface_of(Body::Lower).unwrap();
+    // Held, the bottom is not stretched.
+    let bottom = below.at(0.3, 1.0).unwrap();
+    assert!((0.7 * bottom.sigma_x - 0.3 * bottom.sigma_y).abs() < 4e-6, "{bottom:?}");
 }
 
 /// What half-planes bear, or bodies with the bend of another load, bounds no width and no peak.

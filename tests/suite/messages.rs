@@ -110,6 +110,10 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["the approach", "not known", "layer"],
         ),
         (
+            ContactError::Evaluation(EvaluationError::NoStress { depths: [0.25, 1.5] }),
+            &["depths from 0.25 to 1.5", "rigid base"],
+        ),
+        (
             ContactError::Input(InputError::InvalidLimits { interval: ON }),
             &["-b = -11.5", "a = 12.5"],
         ),

@@ -722,3 +722,23 @@ fn below_waves_and_the_gaps_between_them() {
         assert!(worst < 3e-13, "{worst:e}");
     }
 }
+
+/// Depths beyond the largest shear: it falls on the axis like `t - t²/sqrt(1 + t²)`, `t = y/L`.
+#[test]
+fn the_largest_stress_from_one_depth_to_another() {
+    let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
+    let solution = Contact::new(&Flat, &body).unwrap().solve(Control::HalfWidth(0.2)).unwrap();
+    let peak = solution.peak().unwrap().pressure;
+    let within = |depths: [f64; 2]| solution.subsurface().unwrap().within(depths).unwrap();
+    for share in [1.0, 2.5, 30.0] {
+        let found = within([0.2 * share, f64::INFINITY]).max_shear().unwrap();
+        let root = share.hypot(1.0);
+        let expected = share / (root * (share + root)) * peak;
+        assert!((found.value / expected - 1.0).abs() < 1e-12, "{share}: {found:?}");
+        assert!(found.depth == 0.2 * share && found.x.abs() < 1e-6 * root, "{share}: {found:?}");
+    }
+    let shallow = within([0.0, 0.1]).max_shear().unwrap();
+    assert!(shallow.depth == 0.1 && shallow.value >= (0.5 - 0.25 / 1.25f64.sqrt()) * peak);
+    let all = solution.subsurface().unwrap().max_shear().unwrap();
+    assert_eq!(within([0.0, f64::INFINITY]).max_shear().unwrap(), all);
+}

@@ -1208,6 +1208,18 @@ class AboveSurfaceError(EvaluationError):
     depth: float
 
 
+class NoStressError(EvaluationError):
+    """There is no elastic material at some depths.
+
+    Attributes
+    ----------
+    depths : tuple[float, float]
+        Depths asked for, twice the same if it is one.
+    """
+
+    depths: tuple[float, float]
+
+
 class OutsideTableError(EvaluationError):
     """The table of a spring does not cover this approach.
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .contact import Contact, References
-    from .slipping import PartialSlip
+    from .slipping import PartialSlip, Side
 
 __all__ = [
     "Approach",
@@ -748,16 +748,22 @@ class Solution:
         found: float | FloatArray = each(self._found.gap_slope, x)
         return found
 
-    def stress(self, x: float | Numbers, depth: float | Numbers, *, friction: float = 0.0) -> Stress:
-        """Returns the stress below the surface of either body.
+    def stress(
+        self, x: float | Numbers, depth: float | Numbers, *, body: Side | None = None, friction: float = 0.0
+    ) -> Stress:
+        """Returns the stress below the surface of a body.
 
         Parameters
         ----------
         x, depth : float or array_like
-            Lengths, broadcast against each other. The depth must not be negative.
+            Lengths, broadcast against each other. The depth must not be negative. At the interface
+            of a layer the stress is that of the layer, just below it that of the base.
+        body : {"lower", "upper"}, optional
+            Body meant. Without friction half-planes have the same stress; of bodies with a layer
+            one must be named.
         friction : float
             Coefficient of friction μ, of either sign: adds a traction μP on the surface of this
-            body in the direction of x.
+            body in the direction of x. It must be 0 if a body has a layer.
 
         Returns
         -------
@@ -772,10 +778,26 @@ class Solution:
         >>> (stress.sigma_y / solution.peak().pressure).round(6)  # -1/sqrt(1 + (y/L)²)
         array([-1.      , -0.707107])
         """
-        return _stress(lambda x, depth: self._found.stress(x, depth, friction), x, depth)
+        return _stress(lambda x, depth: self._found.stress(body, x, depth, friction), x, depth)
 
-    def max_shear(self, *, friction: float = 0.0) -> StressPeak:
+    def max_shear(
+        self,
+        *,
+        body: Side | None = None,
+        depths: tuple[float, float] | None = None,
+        friction: float = 0.0,
+    ) -> StressPeak:
         """Returns the largest shear stress in the plane, and its place.
+
+        Parameters
+        ----------
+        body : {"lower", "upper"}, optional
+            Body meant, as for `stress`.
+        depths : (float, float), optional
+            Depths from and to which it is looked for: a layer has those from 0 to its thickness, its
+            base those from there to infinity.
+        friction : float
+            Coefficient of friction, as for `stress`.
 
         Examples
         --------
@@ -785,14 +807,38 @@ class Solution:
         >>> round(largest.value / solution.peak().pressure, 6), round(largest.depth / 0.1, 4)
         (0.300283, 0.7862)
         """
-        return StressPeak(*self._found.max_shear(friction))
+        return StressPeak(*self._found.max_shear(body, depths, friction))
 
-    def max_von_mises(self, poisson_ratio: float, *, friction: float = 0.0) -> StressPeak:
-        """Returns the largest von Mises equivalent stress, and its place."""
-        return StressPeak(*self._found.max_von_mises(poisson_ratio, friction))
+    def max_von_mises(
+        self,
+        poisson_ratio: float,
+        *,
+        body: Side | None = None,
+        depths: tuple[float, float] | None = None,
+        friction: float = 0.0,
+    ) -> StressPeak:
+        """Returns the largest von Mises equivalent stress, and its place.
 
-    def max_tension(self, *, friction: float = 0.0) -> Extremum:
+        Body and depths are as for `max_shear`. Ask a layer and its base one by one if their ratios
+        differ.
+
+        Examples
+        --------
+        >>> import linecontact as lc
+        >>> steel = lc.Material(210e3, 0.3)  # MPa; lengths in mm
+        >>> coated = lc.Layer(lc.Material(400e3, 0.25), 3e-3, steel)
+        >>> solution = lc.solve(lc.Flat(), lc.Parabola(1.0, (-0.1, 0.1)), materials=(coated, steel), half_width=9e-3)
+        >>> layer = solution.max_von_mises(0.25, body="lower", depths=(0.0, 3e-3))
+        >>> base = solution.max_von_mises(0.3, body="lower", depths=(3e-3, float("inf")))
+        >>> layer.depth <= 3e-3 < base.depth
+        True
+        """
+        return StressPeak(*self._found.max_von_mises(body, depths, poisson_ratio, friction))
+
+    def max_tension(self, *, body: Side | None = None, friction: float = 0.0) -> Extremum:
         """Returns the largest tension along the surface, the largest σ_x at depth 0, and its x.
+
+        Body and friction are as for `stress`. A coating is stretched where it bends.
 
         Examples
         --------
@@ -802,7 +848,7 @@ class Solution:
         >>> round(tension.value / solution.peak().pressure, 12), tension.x == -solution.b  # 2 μ p₀
         (0.6, True)
         """
-        return Extremum(*self._found.max_tension(friction))
+        return Extremum(*self._found.max_tension(body, friction))
 
     # Approach, stiffness and partial slip.
 

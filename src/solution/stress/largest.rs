@@ -10,10 +10,12 @@ use std::cmp::Ordering;
 const COLUMNS: usize = 33;
 const ROWS: usize = 32;
 
-/// Range of depths on the first grid, in half-widths, besides the surface. A climb may end nearer
-/// to the surface.
+/// Range of depths on the first grid, in half-widths, besides the surface, and half its width. A
+/// climb may end nearer to the surface. Stress at greater depths is looked for over ranges as much
+/// greater.
 const SHALLOWEST: f64 = 1e-6;
 const DEEPEST: f64 = 4.0;
+const WIDEST: f64 = 1.5;
 
 /// Largest number of maxima of the pressure, and of the surface stress, below which stress is
 /// searched.
@@ -29,7 +31,8 @@ impl<T: Real> Subsurface<'_, T> {
     ///
     /// The search covers a grid of 33 abscissae, from half a half-width beyond either edge, and 32
     /// depths from the surface to four half-widths; all of the surface; and points below the limits
-    /// of each contact and the highest maxima of its pressure, ever closer to them.
+    /// of each contact and the highest maxima of its pressure, ever closer to them. A layer and its
+    /// base have a search each, which covers its side of the interface as it covers the surface.
     ///
     /// Below a tip, where the pressure is infinite but the shear is not, the largest shear may be
     /// approached only as the depth goes to zero: then the depth returned is next to zero.
@@ -47,12 +50,12 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     pub(crate) fn largest_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
-        self.check_edges(|_, _, _| true)?;
-        self.check_tips(false)?;
+        self.check_surface(false)?;
         self.largest(|stress| Ok(stress.max_shear()))
     }
 
-    /// Finds the largest von Mises equivalent stress, in the same way.
+    /// Finds the largest von Mises equivalent stress, in the same way. ν is that at all depths
+    /// [looked at](Self::within): a layer and its base are asked one by one if theirs differ.
     ///
     /// # Errors
     /// As [`max_shear`](Self::max_shear), without friction also where the slope of the gap jumps,
@@ -63,9 +66,17 @@ impl<T: Real> Subsurface<'_, T> {
 
     pub(crate) fn largest_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
         let poisson = checked_ratio(poisson)?;
-        self.check_edges(|_, _, _| true)?;
-        self.check_tips(poisson != T::of(0.5))?;
+        self.check_surface(poisson != T::of(0.5))?;
         self.largest(|stress| stress.von_mises(poisson))
+    }
+
+    /// Refuses edges and breakpoints at which the stress is infinite, if the surface is looked at.
+    fn check_surface(&self, at_all_tips: bool) -> Result<(), ContactError<T>> {
+        if self.depths[0] > T::zero() {
+            return Ok(());
+        }
+        self.check_edges(|_, _, _| true)?;
+        self.check_tips(at_all_tips)
     }
 
     /// Refuses edges of infinite pressure, if the stress is infinite for a side, its place and its
@@ -120,10 +131,12 @@ impl<T: Real> Subsurface<'_, T> {
     ) -> Result<StressPeak<T>, ContactError<T>> {
         let mut best: Option<StressPeak<T>> = None;
         for (contact, &on) in self.solution.intervals().iter().enumerate() {
-            let hill = Hill { below: self, on, value: &value };
-            let peak = hill.top(&self.features(contact, on)?)?;
-            if best.is_none_or(|best| peak.value > best.value) {
-                best = Some(peak);
+            let features = self.features(contact, on)?;
+            for depths in self.materials() {
+                let peak = Hill::new(self, on, depths, &value).top(&features)?;
+                if best.is_none_or(|best| peak.value > best.value) {
+                    best = Some(peak);
+                }
             }
         }
         let value = self.solution.load();
@@ -139,7 +152,8 @@ impl<T: Real> Subsurface<'_, T> {
         let pressures: Vec<_> = grid.iter().zip(pressures).map(|(&x, p)| [x, p]).collect();
         let tops = rises(&pressures).into_iter().take(MAX_TOPS).map(|top| top.highest);
         let tips = self.tips()?.into_iter().filter(|&x| on.contains(x)).collect();
-        Ok(Features { grid, limits: self.limits(on), tops: tops.collect(), tips })
+        let (grid, limits) = (self.wide_grid(contact, on), self.limits(on));
+        Ok(Features { grid, limits, tops: tops.collect(), tips })
     }
 
     /// Lists the limits of a contact and of the stick zones in it, from left to right.
@@ -150,14 +164,22 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     /// Lists places in a contact that crowd at its limits and at breakpoints.
-    pub(super) fn grid(&self, contact: usize, on: Interval<T>) -> Vec<T> {
+    fn grid(&self, contact: usize, on: Interval<T>) -> Vec<T> {
         places(&**self.solution.integrator, &self.solution.gap, contact, on)
+    }
+
+    /// Lists the same places, and those beside a contact at which a coating bends.
+    pub(super) fn wide_grid(&self, contact: usize, on: Interval<T>) -> Vec<T> {
+        let beside: Vec<T> = self.layered.iter().flat_map(|layered| layered.beside()).collect();
+        let left = beside.iter().rev().map(|&distance| on.left - distance);
+        let right = beside.iter().map(|&distance| on.right + distance);
+        left.chain(self.grid(contact, on)).chain(right).collect()
     }
 }
 
 /// Places on the surface of a contact.
 struct Features<T> {
-    /// Grid that crowds at the limits and breakpoints.
+    /// Grid that crowds at the limits and breakpoints, and goes on beside a coated contact.
     grid: Vec<T>,
     /// Limits of the contact and of its stick zones.
     limits: Vec<T>,
@@ -167,38 +189,55 @@ struct Features<T> {
     tips: Vec<T>,
 }
 
-/// Stress below one contact by its place: the distance from the centre along the surface, in
-/// half-widths, and the logarithm of the depth in half-widths.
+/// Stress below one contact in one material by its place: the distance from the centre along the
+/// surface, in half-widths, and the logarithm of the depth in half-widths.
 struct Hill<'s, T: Real, V> {
     below: &'s Subsurface<'s, T>,
     on: Interval<T>,
+    /// Depths at which stress is looked for.
+    depths: [T; 2],
+    /// Flag: they end in another material, or where they were said to.
+    ends: bool,
     value: &'s V,
 }
 
 /// Place and the stress there.
 type Found<T> = ([T; 2], StressPeak<T>);
 
-impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
-    /// Returns the logarithm of the depth, in half-widths, above which places count as the surface.
-    fn surface() -> T {
-        T::epsilon().ln()
+impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V> {
+    fn new(below: &'s Subsurface<'s, T>, on: Interval<T>, depths: [T; 2], value: &'s V) -> Self {
+        let [from, to] = depths;
+        let deepest = T::of(DEEPEST) * on.half_width().max(from);
+        Self { below, on, depths: [from, to.min(deepest)], ends: to < deepest, value }
     }
 
-    /// Returns the steps of the first grid.
-    fn steps() -> [T; 2] {
-        let down = (DEEPEST / SHALLOWEST).ln() / (ROWS - 1) as f64;
-        [3.0 / (COLUMNS - 1) as f64, down].map(T::of)
+    /// Returns a depth as a place: the logarithm in half-widths, of the surface that above which
+    /// places count as the surface.
+    fn down(&self, depth: T) -> T {
+        let share = depth / self.on.half_width();
+        if share.is_zero() { T::epsilon().ln() } else { share.ln() }
+    }
+
+    /// Returns the first place of the first grid, and its steps.
+    fn first_grid(&self) -> [[T; 2]; 2] {
+        let (count, [from, to]) = (|n: usize| T::count(n - 1), self.depths);
+        let [from, to] = [from, to].map(|depth| depth / self.on.half_width());
+        let side = T::of(WIDEST) * from.max(T::one());
+        let shallowest = T::of(SHALLOWEST) * to.min(T::one());
+        let top = if from.is_zero() { shallowest } else { from };
+        [[-side, top.ln()], [(side + side) / count(COLUMNS), (to / top).ln() / count(ROWS)]]
     }
 
     fn at(&self, place: [T; 2]) -> Result<Found<T>, ContactError<T>> {
-        let is_below = place[1] > Self::surface();
-        let depth = if is_below { self.on.half_width() * place[1].exp() } else { T::zero() };
-        self.found(place, self.on.centre() + self.on.half_width() * place[0], depth)
+        let ([from, to], half_width) = (self.depths, self.on.half_width());
+        let is_below = place[1] > self.down(from);
+        let depth = if is_below { (half_width * place[1].exp()).max(from).min(to) } else { from };
+        self.found(place, self.on.centre() + half_width * place[0], depth)
     }
 
-    /// Returns the stress on the surface at x itself, of which a place keeps fewer digits.
-    fn on_surface(&self, x: T) -> Result<Found<T>, ContactError<T>> {
-        self.found([self.along(x), Self::surface()], x, T::zero())
+    /// Returns the stress at a depth at x itself, of which a place keeps fewer digits.
+    fn at_depth(&self, x: T, depth: T) -> Result<Found<T>, ContactError<T>> {
+        self.found([self.along(x), self.down(depth)], x, depth)
     }
 
     fn found(&self, place: [T; 2], x: T, depth: T) -> Result<Found<T>, ContactError<T>> {
@@ -237,11 +276,11 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
     }
 
     /// Finds the highest place of the grid and of the neighbourhood of each feature, and the maxima
-    /// along the surface.
+    /// along the surface and the interface.
     fn first_look(&self, features: &Features<T>) -> Result<Vec<Found<T>>, ContactError<T>> {
-        let [step, down] = Self::steps();
-        let rows = || (0..ROWS).map(|row| T::of(SHALLOWEST.ln()) + down * T::count(row));
-        let columns = (0..COLUMNS).map(|column| T::of(-1.5) + step * T::count(column));
+        let [[left, top], [step, down]] = self.first_grid();
+        let rows = || (0..ROWS).map(|row| top + down * T::count(row));
+        let columns = (0..COLUMNS).map(|column| left + step * T::count(column));
         let mut feet = vec![self.highest(columns.flat_map(|x| rows().map(move |y| [x, y])))?];
         let neighbourhood = |x: T| {
             let x = self.along(x);
@@ -252,22 +291,25 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
         for &x in features.limits.iter().chain(&features.tops) {
             feet.push(neighbourhood(x)?);
         }
-        let mut surface = Vec::with_capacity(features.grid.len());
-        for &x in &features.grid {
-            surface.push([x, self.on_surface(x)?.1.value]);
-        }
-        for top in rises(&surface).into_iter().take(MAX_TOPS) {
-            feet.push(self.on_surface(top.highest)?);
-            feet.push(neighbourhood(top.highest)?);
-        }
-        // From a limit a stress may fall like a square root.
-        for &limit in &features.limits {
-            feet.push(self.on_surface(limit)?);
+        let [from, to] = self.depths;
+        for depth in [from, to].into_iter().take(if self.ends { 2 } else { 1 }) {
+            let mut level = Vec::with_capacity(features.grid.len());
+            for &x in &features.grid {
+                level.push([x, self.at_depth(x, depth)?.1.value]);
+            }
+            for top in rises(&level).into_iter().take(MAX_TOPS) {
+                feet.push(self.at_depth(top.highest, depth)?);
+                feet.push(neighbourhood(top.highest)?);
+            }
+            // From a limit a stress may fall like a square root.
+            for &limit in &features.limits {
+                feet.push(self.at_depth(limit, depth)?);
+            }
         }
         // The stress rises to a corner or a tip along a ridge that narrows with the depth, and
         // bends. Below a tip the ridge becomes too narrow to follow, but its end is known.
         for &x in &features.tips {
-            feet.push(self.at([self.along(x), T::of(0.5) * Self::surface()])?);
+            feet.push(self.at([self.along(x), T::of(0.5) * T::epsilon().ln()])?);
         }
         Ok(feet)
     }
@@ -287,17 +329,17 @@ impl<T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'_, T, V> {
     /// axes: a step that gains is lengthened, one that fails is shortened and reversed. Once both
     /// axes have gained and then failed, the first one is turned to the direction of progress.
     fn climb(&self, (mut place, mut best): Found<T>) -> Result<StressPeak<T>, ContactError<T>> {
-        let deepest = T::of(DEEPEST.ln());
+        let [top, bottom] = self.depths.map(|depth| self.down(depth));
         let (least, rounding) = (T::of(0.1) * T::epsilon().sqrt(), T::of(4.0) * T::epsilon());
         let mut axes = [[T::one(), T::zero()], [T::zero(), T::one()]];
-        let mut steps = Self::steps();
+        let [_, mut steps] = self.first_grid();
         loop {
             let start = place;
             let (mut has_gained, mut has_failed) = ([false; 2], [false; 2]);
             while has_failed != [true; 2] {
                 for i in 0..2 {
                     let mut here = [0, 1].map(|j| place[j] + steps[i] * axes[i][j]);
-                    here[1] = here[1].max(Self::surface()).min(deepest);
+                    here[1] = here[1].max(top).min(bottom);
                     let (_, found) = self.at(here)?;
                     if found.value - best.value > rounding * best.value {
                         (place, best) = (here, found);

@@ -11,8 +11,8 @@ impl<T: Real> Subsurface<'_, T> {
     ///
     /// A body that is pulled towards positive x is stretched most at the left limit of a contact:
     /// with sliding friction by 2 μ p₀ under Hertz's pressure (Johnson, §7.1). The tension may be
-    /// larger inside a contact, where the pressure nearly vanishes. Without friction it is zero,
-    /// outside the contacts.
+    /// larger inside a contact, where the pressure nearly vanishes. Without friction it is zero on
+    /// a half-plane, outside the contacts; a coating is stretched where it bends.
     ///
     /// # Errors
     /// [`EvaluationError::Singular`] where the tension is infinite: at an adhesive edge, and at an
@@ -39,9 +39,10 @@ impl<T: Real> Subsurface<'_, T> {
         self.check_edges(|side, x, strength| strength < zero || is_stretched(side, x, strength))?;
         let mut best = Extremum { x: self.hull().left, value: zero };
         for (contact, &on) in self.solution.intervals().iter().enumerate() {
-            // Beside the contacts σ_x rises towards a limit, as the traction has one sign.
+            // Beside a contact of half-planes σ_x rises towards a limit, as the traction has one
+            // sign.
             let mut grid = Vec::new();
-            for x in [self.grid(contact, on), self.limits(on)].concat() {
+            for x in [self.wide_grid(contact, on), self.limits(on)].concat() {
                 grid.push([x, self.tension(x, on)?]);
             }
             grid.sort_by(|[one, _], [other, _]| one.partial_cmp(other).unwrap_or(Ordering::Equal));

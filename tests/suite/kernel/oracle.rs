@@ -3,60 +3,93 @@
 use linecontact::{Base, Cost, Interval, Layer, Material, Solution};
 use std::f64::consts::PI;
 
-/// Compliance K(ξ) of a layer by matching displacements of Navier's equations at its base, all of
-/// the form `exp(±z)` and `z exp(±z)` times `exp(ix)`: six conditions, solved by elimination.
-pub fn compliance(layer: &Layer<f64>, wavenumber: f64) -> f64 {
-    let Material::Elastic { youngs_modulus: e1, poisson_ratio: n1 } = layer.material else {
-        panic!("a rigid layer")
+/// σz, τ, X, Z and σx at a depth z of a displacement `(iX, Z) exp(ix)` that solves Navier's
+/// equations: `exp(sz)` (k = 0) or `z exp(sz)` (k = 1) along x.
+fn column(material: Material<f64>, s: f64, z: f64, k: usize) -> [f64; 5] {
+    let Material::Elastic { youngs_modulus, poisson_ratio: nu } = material else {
+        panic!("a rigid material")
     };
-    let depth = wavenumber * layer.thickness;
-    // σz, τ, X and Z at a depth z, for one of the solutions.
-    let column = |e: f64, nu: f64, s: f64, z: f64, k: usize| {
-        let [x, dx, w, dw] = if k == 0 {
-            [1.0, s, s, 1.0]
-        } else {
-            [z, 1.0 + s * z, s * z - 3.0 + 4.0 * nu, s * (s * z - 2.0 + 4.0 * nu)]
-        };
-        let shear = e / (2.0 * (1.0 + nu));
-        let dilation = nu / (1.0 - 2.0 * nu) * (dw - x);
-        [2.0 * shear * (dw + dilation), shear * (dx + w), x, w].map(|value| value * (s * z).exp())
+    let [x, dx, w, dw] = if k == 0 {
+        [1.0, s, s, 1.0]
+    } else {
+        [z, 1.0 + s * z, s * z - 3.0 + 4.0 * nu, s * (s * z - 2.0 + 4.0 * nu)]
     };
-    let solutions = [(-1.0, 0), (-1.0, 1), (1.0, 0), (1.0, 1)];
-    let mut rows = vec![vec![0.0; 7]; 6];
-    for (j, (s, k)) in solutions.into_iter().enumerate() {
-        let (top, bottom) = (column(e1, n1, s, 0.0, k), column(e1, n1, s, depth, k));
-        // Those that grow are measured at the base.
-        let scale = if s > 0.0 { (-depth).exp() } else { 1.0 };
-        (rows[0][j], rows[1][j]) = (scale * top[0], scale * top[1]);
-        for i in 0..4 {
-            rows[2 + i][j] = scale * bottom[i];
+    let shear = youngs_modulus / (2.0 * (1.0 + nu));
+    let dilation = nu / (1.0 - 2.0 * nu) * (dw - x);
+    [2.0 * shear * (dw + dilation), shear * (dx + w), x, w, 2.0 * shear * (dilation - x)]
+        .map(|value| value * (s * z).exp())
+}
+
+/// Layer under a wave of pressure, with displacements matched at its base: six conditions, solved
+/// by elimination. Lengths are in units of 1/ω.
+struct Wave {
+    layer: Layer<f64>,
+    depth: f64,
+    unknowns: Vec<f64>,
+}
+
+const SOLUTIONS: [(f64, usize); 4] = [(-1.0, 0), (-1.0, 1), (1.0, 0), (1.0, 1)];
+
+impl Wave {
+    fn new(layer: &Layer<f64>, wavenumber: f64) -> Self {
+        let depth = wavenumber * layer.thickness;
+        let mut rows = vec![vec![0.0; 7]; 6];
+        let mut wave = Self { layer: *layer, depth, unknowns: Vec::new() };
+        for j in 0..SOLUTIONS.len() {
+            let (top, bottom) = (wave.own(j, 0.0), wave.own(j, depth));
+            let conditions = top[..2].iter().chain(&bottom[..4]);
+            rows.iter_mut().zip(conditions).for_each(|(row, value)| row[j] = *value);
         }
-    }
-    rows[0][6] = -1.0;
-    match layer.base {
-        Base::HalfPlane(Material::Elastic { youngs_modulus: e2, poisson_ratio: n2 }) => {
-            for k in 0..2 {
-                let below = column(e2, n2, -1.0, depth, k);
-                for i in 0..4 {
-                    rows[2 + i][4 + k] = -below[i] * depth.exp();
+        rows[0][6] = -1.0;
+        match layer.base {
+            Base::HalfPlane(base) => {
+                for k in 0..2 {
+                    let below = column(base, -1.0, depth, k);
+                    for i in 0..4 {
+                        rows[2 + i][4 + k] = -below[i] * depth.exp();
+                    }
                 }
             }
+            // X = Z = 0, or τ = Z = 0; the stresses left are unknowns of their own.
+            Base::Frictionless => {
+                (rows[2][4], rows[4][5]) = (1.0, 1.0);
+            }
+            _ => (rows[2][4], rows[3][5]) = (1.0, 1.0),
         }
-        // X = Z = 0, or τ = Z = 0; the stresses left are unknowns of their own.
-        Base::Frictionless => {
-            (rows[2][4], rows[4][5]) = (1.0, 1.0);
-        }
-        _ => (rows[2][4], rows[3][5]) = (1.0, 1.0),
+        wave.unknowns = solved(rows);
+        wave
     }
-    let unknowns = solved(rows);
-    let surface: f64 = (0..4)
-        .map(|j| {
-            let (s, k) = solutions[j];
-            let scale = if s > 0.0 { (-depth).exp() } else { 1.0 };
-            unknowns[j] * scale * column(e1, n1, s, 0.0, k)[3]
-        })
-        .sum();
-    surface * e1 / (1.0 - n1 * n1) / 2.0
+
+    /// Solution of a number in the layer; those that grow are measured at the base.
+    fn own(&self, j: usize, z: f64) -> [f64; 5] {
+        let (s, k) = SOLUTIONS[j];
+        let scale = if s > 0.0 { (-self.depth).exp() } else { 1.0 };
+        column(self.layer.material, s, z, k).map(|value| scale * value)
+    }
+
+    /// σz, τ, X, Z and σx at a depth, at the interface those of the layer.
+    fn at(&self, z: f64) -> [f64; 5] {
+        let mut sum = [0.0; 5];
+        let mut add = |unknown: f64, column: [f64; 5]| {
+            sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += unknown * value);
+        };
+        match self.layer.base {
+            Base::HalfPlane(base) if z > self.depth => (0..2).for_each(|k| {
+                add(self.unknowns[4 + k] * self.depth.exp(), column(base, -1.0, z, k));
+            }),
+            _ => (0..4).for_each(|j| add(self.unknowns[j], self.own(j, z))),
+        }
+        sum
+    }
+}
+
+/// Compliance K(ξ) of a layer.
+pub fn compliance(layer: &Layer<f64>, wavenumber: f64) -> f64 {
+    let Material::Elastic { youngs_modulus, poisson_ratio } = layer.material else {
+        panic!("a rigid layer")
+    };
+    let surface = Wave::new(layer, wavenumber).at(0.0)[3];
+    surface * youngs_modulus / (1.0 - poisson_ratio * poisson_ratio) / 2.0
 }
 
 fn solved(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
@@ -96,6 +129,55 @@ fn loads(solution: &Solution<'_, f64>, nodes: usize) -> Vec<(usize, f64, f64)> {
     loads
 }
 
+/// Nodes in ω with the transform of the pressure there, times their weights, by a rule of its own:
+/// short panels of three points (Gauss), the first ones alike, the others growing up to a width.
+fn waves(
+    loads: &[(usize, f64, f64)],
+    [finest, widest, end]: [f64; 3],
+) -> impl Iterator<Item = (f64, [f64; 2])> {
+    let next = move |from: &f64| Some(from + finest.max(0.05 * from).min(widest));
+    let starts = std::iter::successors(Some(0.0), next).take_while(move |from| *from < end);
+    let rule = [(-0.6f64.sqrt(), 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.6f64.sqrt(), 5.0 / 9.0)];
+    starts.flat_map(move |from| {
+        let step = finest.max(0.05 * from).min(widest);
+        rule.map(|(node, weight)| {
+            let omega = from + 0.5 * step * (1.0 + node);
+            (omega, transform(loads, omega).map(|part| 0.5 * step * weight * part))
+        })
+    })
+}
+
+/// Stress σx, σz, τ at places (x, depth), below the surface of a body with a layer, by a direct
+/// sum. The depths must not be small beside the thickness.
+pub fn stresses(
+    solution: &Solution<'_, f64>,
+    layer: &Layer<f64>,
+    places: &[[f64; 2]],
+) -> Vec<[f64; 3]> {
+    let hull = solution.hull();
+    let far = places.iter().fold(hull.right - hull.left, |far, [x, _]| {
+        far.max((x - hull.left).abs()).max((x - hull.right).abs())
+    });
+    let shallowest = places.iter().fold(layer.thickness, |least, [_, depth]| least.min(*depth));
+    let deepest = places.iter().fold(layer.thickness, |most, [_, depth]| most.max(*depth));
+    let widest = 0.2 / far.max(deepest).max(layer.thickness);
+    let rule = [(0.01 / length(layer)).min(widest), widest, 32.0 / shallowest];
+    // The rule along x is exact for polynomials of twice as many terms.
+    let loads = loads(solution, 100 + (16.0 / shallowest * (hull.right - hull.left)) as usize);
+    let mut sums = vec![[0.0; 3]; places.len()];
+    for (omega, [re, im]) in waves(&loads, rule) {
+        let wave = Wave::new(layer, omega);
+        for (sum, [x, depth]) in sums.iter_mut().zip(places) {
+            let [normal, shear, _, _, along] = wave.at(omega * depth);
+            let (sin, cos) = (omega * x).sin_cos();
+            // τ is i times a wave.
+            let (re, im) = ((re * cos - im * sin) / PI, (re * sin + im * cos) / PI);
+            *sum = [sum[0] + along * re, sum[1] + normal * re, sum[2] - shear * im];
+        }
+    }
+    sums
+}
+
 /// Returns the largest residual of Eq. (1) at some places, as a share of the largest term; the
 /// shares are those of both bodies in 1/E*. The bodies may have a period.
 pub fn residual(
@@ -107,16 +189,13 @@ pub fn residual(
 ) -> f64 {
     let nodes = 200;
     let loads = loads(solution, nodes);
-    let mut waves = Vec::new();
-    for (omega, weight) in wavenumbers(solution.hull(), layers, period) {
-        let excess: f64 =
-            layers.iter().map(|(share, layer)| share * (compliance(layer, omega) - 1.0)).sum();
-        let (mut re, mut im) = (0.0, 0.0);
-        for (_, s, load) in &loads {
-            (re, im) = (re + load * (omega * s).cos(), im - load * (omega * s).sin());
-        }
-        waves.push((omega, weight * excess * re, weight * excess * im));
-    }
+    let excess = |omega: f64| -> f64 {
+        layers.iter().map(|(share, layer)| share * (compliance(layer, omega) - 1.0)).sum()
+    };
+    let waves: Vec<_> = wavenumbers(&loads, solution.hull(), layers, period)
+        .into_iter()
+        .map(|(omega, [re, im])| (omega, excess(omega) * re, excess(omega) * im))
+        .collect();
     let cauchy = |x: f64| period.map_or(1.0 / x, |p| PI / p / (PI * x / p).tan());
     let (mut worst, mut size) = (0.0f64, 0.0f64);
     for on in solution.intervals() {
@@ -133,35 +212,33 @@ pub fn residual(
     worst / size
 }
 
-/// Lists wavenumbers with their weights: those of the period, or a rule of its own, short panels of
-/// three points (Gauss), everywhere alike.
+/// Lists wavenumbers with the transform of the pressure times their weights: those of the period, if
+/// there is one.
 fn wavenumbers(
+    loads: &[(usize, f64, f64)],
     hull: Interval<f64>,
     layers: &[(f64, Layer<f64>)],
     period: Option<f64>,
-) -> Vec<(f64, f64)> {
-    let mut waves = Vec::new();
+) -> Vec<(f64, [f64; 2])> {
     if layers.is_empty() {
-        return waves;
+        return Vec::new();
     }
     let thinnest = layers.iter().map(|(_, layer)| layer.thickness).fold(f64::INFINITY, f64::min);
     let end = 16.0 / thinnest;
-    if let Some(period) = period {
-        let step = 2.0 * PI / period;
-        waves.extend((1..).map(|n| (step * f64::from(n), step)).take_while(|&(w, _)| w < end));
-        return waves;
-    }
-    let finest = layers.iter().map(|(_, layer)| 0.01 / length(layer)).fold(f64::INFINITY, f64::min);
-    let widest = (0.05 / thinnest).min(0.2 / (hull.right - hull.left));
-    let mut from = 0.0;
-    while from < end {
-        let step = finest.max(0.05 * from).min(widest);
-        for (node, weight) in
-            [(-0.6f64.sqrt(), 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.6f64.sqrt(), 5.0 / 9.0)]
-        {
-            waves.push((from + 0.5 * step * (1.0 + node), 0.5 * step * weight));
-        }
-        from += step;
-    }
-    waves
+    let Some(period) = period else {
+        let finest = layers.iter().map(|(_, layer)| 0.01 / length(layer));
+        let finest = finest.fold(f64::INFINITY, f64::min);
+        let widest = (0.05 / thinnest).min(0.2 / (hull.right - hull.left));
+        return waves(loads, [finest, widest, end]).collect();
+    };
+    let step = 2.0 * PI / period;
+    let omegas = (1..).map(|n| step * f64::from(n)).take_while(|&omega| omega < end);
+    omegas.map(|omega| (omega, transform(loads, omega).map(|part| step * part))).collect()
+}
+
+/// Real and imaginary part of `∫ P exp(-iωs) ds`.
+fn transform(loads: &[(usize, f64, f64)], omega: f64) -> [f64; 2] {
+    loads.iter().fold([0.0; 2], |[re, im], (_, s, load)| {
+        [re + load * (omega * s).cos(), im - load * (omega * s).sin()]
+    })
 }

@@ -154,7 +154,7 @@ fn a_cancelled_solve_ends() {
     for control in [Control::Load(0.5), Control::HalfWidth(0.7), Control::PeakPressure(0.4)] {
         let asked = AtomicUsize::new(0);
         let once = |_, _| match asked.fetch_add(1, Ordering::Relaxed) {
-            3 => ControlFlow::Break(()),
+            2 => ControlFlow::Break(()),
             _ => ControlFlow::Continue(()),
         };
         let contact = coated(&body, layer(1.0, 0.3, 1.0, Base::Bonded), RIGID).watch(&once);
