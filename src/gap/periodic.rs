@@ -19,7 +19,7 @@ const SAME: f64 = 1e-9;
 /// each of 64 waves.
 const SLOPES: usize = 1024;
 
-impl<'b, T: Real> Gap<'b, T> {
+impl<T: Real> Gap<'_, T> {
     /// Returns the gap of bodies that repeat with this period, cut where they are furthest apart.
     pub(crate) fn repeated(&self, period: T) -> Result<Self, ContactError<T>> {
         let start = self.start_of_period(period)?;
@@ -137,10 +137,10 @@ impl<'b, T: Real> Gap<'b, T> {
     /// Returns the load at which the bodies touch all over the period, with the pressure
     ///
     /// ```text
-    /// P = F/p + κ/π Σ (b_n cos ω_n x - a_n sin ω_n x)/K(ω_n)      g = Σ a_n cos ω_n x + b_n sin ω_n x
+    /// P = F/p + κ/π Σ (b_n cos ω_n x - a_n sin ω_n x)/K(ω_n)
     /// ```
     ///
-    /// given K.
+    /// given K, with the coefficients `a_n` and `b_n` of g.
     pub(crate) fn complete_load(
         &self,
         kappa: T,

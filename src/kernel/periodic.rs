@@ -1,10 +1,10 @@
 //! The kernel of a row of contacts, one in each period.
 //!
 //! ```text
-//! K(x, s) = π/p cot(π(x - s)/p) - 1/(x - s)     its integral by x: ln|sin(π(x - s)/p)/(π(x - s)/p)|
+//! K(x, s) = π/p cot πt - 1/(x - s)     ∫ K dx = ln|sin πt/πt|     t = (x - s)/p
 //! ```
 //!
-//! With t = (x - s)/p, the nearest contacts on both sides and the next ones are the terms
+//! The nearest contacts on both sides and the next ones are the terms
 //! `2t/(t² - n²)` of n = 1 and 2; all others are a power series, `-2 Σ t^(2j+1) Σ n^(-2j-2)` over
 //! `n > 2`.
 
@@ -34,7 +34,8 @@ impl<T: Real> Periodic<T> {
             square * square / 90.0 - 17.0 / 16.0,
             square * square * square / 945.0 - 65.0 / 64.0,
         ];
-        let sum = |j: usize| (3..=64).rev().map(|n| f64::from(n).powi(-2 * j as i32 - 2)).sum();
+        let power = |n: f64, j: usize| (0..=j).fold(1.0, |power, _| power / (n * n));
+        let sum = |j: usize| (3..=64).rev().map(|n| power(f64::from(n), j)).sum();
         let term = |j: usize| T::of(first.get(j).copied().unwrap_or_else(|| sum(j)));
         let (range, distance) = ([T::zero(), period], T::of(0.5) * period);
         let integral = std::array::from_fn(|j| term(j) / T::count(j + 1));

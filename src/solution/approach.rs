@@ -240,7 +240,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         let mut first: Option<(usize, T, T)> = None;
         for (contact, &interval) in self.solved.contacts().iter().enumerate() {
             integrator.prepare(before, interval)?;
-            let found = &ContactState { interval, ..found.clone() };
+            let found = &ContactState { interval, ..*found };
             let solved = Solved { gap: before, integrator: &*integrator, found, ..self.solved };
             let least = UndeformedGap::new(solved, 0, self.references.x)?.least;
             let left = if self.solved.contacts().len() > 1 {

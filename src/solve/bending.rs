@@ -243,12 +243,19 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         self.cut();
         let (mut is_checked, mut left) =
             (self.kernel.row.is_some() || self.spreads.len() != 1, T::DERIVATIVE_ORDER);
-        let mut has_converged = false;
+        // Contacts that are one interval when they are first checked are sought as one.
+        let (mut has_converged, mut may_be_one) = (false, true);
         for _ in 0..MAX_SOLVES {
             let solved = match self.solve(is_checked, has_converged) {
                 Ok(solved) => solved,
                 Err(error) => {
-                    self.retreat(error)?;
+                    if has_converged && may_be_one && !ends(&error) {
+                        // One interval meets the equation, but is no contact.
+                        self.restart();
+                        (has_converged, may_be_one) = (false, false);
+                    } else {
+                        self.retreat(error)?;
+                    }
                     is_checked = true;
                     continue;
                 }
@@ -259,8 +266,8 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 // The ρ that was reached is that of other contacts.
                 self.before = T::one() / T::zero();
             }
-            // A residual far below the error of the limits says no more of them. Next to a kink r is
-            // known to fewer digits.
+            // A residual far below the error of the limits says no more of them. Next to a kink r
+            // is known to fewer digits.
             let known = T::of(BELOW) * solved.found.error.unwrap_or(T::zero());
             let is_least = residual <= known.max(T::of(LEAST) * T::epsilon())
                 || residual <= T::epsilon().powf(T::of(0.75))
@@ -289,7 +296,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 self.check_width(&solved.found, T::one())?;
             }
             // A check may have found other contacts than the one that was sought.
-            is_checked = has_converged || spreads.len() > 1;
+            is_checked = has_converged || !may_be_one || spreads.len() > 1;
             self.step_to(spreads, residual);
             if !is_whole && residual < T::of(NEAR) {
                 self.more();
@@ -322,6 +329,13 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         self.from = std::mem::replace(&mut self.spreads, target.clone());
         (self.target, self.part, self.before) = (target, T::one(), residual);
         self.cut();
+    }
+
+    /// Begins anew.
+    fn restart(&mut self) {
+        (self.part, self.before) = (T::one(), T::one() / T::zero());
+        (self.from, self.target) = (Vec::new(), Vec::new());
+        self.spreads = self.begin();
     }
 
     /// Takes half of the part of the correction.
@@ -369,11 +383,11 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             self.halve();
         } else if self.reached.is_zero() && self.share >= T::one() {
             // On a soft base the kernel is a hundred times the half-planes' part.
-            (self.along, self.before) = (Along::Kernel, T::one() / T::zero());
-            (self.part, self.share) = (T::one(), T::of(FIRST_KERNEL));
-            for pressures in [&mut self.spreads, &mut self.from, &mut self.target] {
-                pressures.clear();
-            }
+            (self.along, self.share) = match self.kernel.row {
+                Some(_) => (Along::Load, T::of(0.5)),
+                None => (Along::Kernel, T::of(FIRST_KERNEL)),
+            };
+            self.restart();
             return Ok(true);
         } else {
             return Err(self.not_converged());
@@ -416,6 +430,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn solve(&mut self, is_checked: bool, is_last: bool) -> Result<Solve<'b, T>, ContactError<T>> {
         let kappa = self.contact.kappa;
         self.kernel.share = if self.along == Along::Kernel { self.share } else { T::one() };
+        let is_again = self.bent.is_some();
         let gap = match (self.bent.take(), hull(&self.spreads)) {
             (Some(bent), _) => bent,
             (None, None) => self.gap.clone(),
@@ -430,7 +445,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         let control = self.reduced();
         let Work { integrator, workspace, cost } = &mut *self.work;
         **cost += integrator.cost();
-        integrator.reset(false);
+        integrator.reset(is_again);
         (workspace.report, workspace.cell_work) = (Report::new(), 0);
         let found = find_under(&scene, control, self.work)?;
         self.check_width(&found, T::of(MOST_TIMES))?;

@@ -212,8 +212,8 @@ pub fn residual(
     worst / size
 }
 
-/// Lists wavenumbers with the transform of the pressure times their weights: those of the period, if
-/// there is one.
+/// Lists wavenumbers with the transform of the pressure times their weights: those of the period,
+/// if there is one.
 fn wavenumbers(
     loads: &[(usize, f64, f64)],
     hull: Interval<f64>,

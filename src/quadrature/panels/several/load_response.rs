@@ -63,8 +63,8 @@ impl<T: Real> LoadResponse<T> {
         self.weight.contacts()
     }
 
-    /// Returns the strength of the singularity at a limit, as a share of that of a unit load on this
-    /// contact alone; zero at a limit that is held.
+    /// Returns the strength of the singularity at a limit, as a share of that of a unit load on
+    /// this contact alone; zero at a limit that is held.
     pub fn strength(&self, contact: usize, side: Side) -> T {
         let on = self.contacts()[contact];
         let (limit, towards) = match side {
