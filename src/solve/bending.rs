@@ -125,6 +125,9 @@ pub(super) fn find<'b, T: Real>(
         reached,
         growth,
         fault,
+        is_checked: true,
+        has_converged: false,
+        may_be_one: true,
     }
     .find();
     match (found, control) {
@@ -203,8 +206,13 @@ struct Bending<'s, 'w, 'b, T: Real> {
     share: T,
     reached: T,
     growth: T,
-    /// Error of the first solve, on the way to the whole load.
+    /// Error of the first solve, on the way to the whole load, or of the last one.
     fault: Option<ContactError<T>>,
+    /// Flags: the next solve may have several contacts; the next one is the last, a check with
+    /// features; contacts that are one interval when they are first checked are sought as one.
+    is_checked: bool,
+    has_converged: bool,
+    may_be_one: bool,
 }
 
 /// Returns the interval of some pressures, from the first to the last.
@@ -241,37 +249,23 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             self.spreads = self.begin();
         }
         self.cut();
-        let (mut is_checked, mut left) =
-            (self.kernel.row.is_some() || self.spreads.len() != 1, T::DERIVATIVE_ORDER);
-        // Contacts that are one interval when they are first checked are sought as one.
-        let (mut has_converged, mut may_be_one) = (false, true);
+        self.is_checked = self.kernel.row.is_some() || self.spreads.len() != 1;
+        let mut left = T::DERIVATIVE_ORDER;
         for _ in 0..MAX_SOLVES {
-            let solved = match self.solve(is_checked, has_converged) {
+            let solved = match self.solve() {
                 Ok(solved) => solved,
                 Err(error) => {
-                    if has_converged && may_be_one && !ends(&error) {
-                        // One interval meets the equation, but is no contact.
-                        self.restart();
-                        (has_converged, may_be_one) = (false, false);
-                    } else {
-                        self.retreat(error)?;
-                    }
-                    is_checked = true;
+                    self.recover(error)?;
                     continue;
                 }
             };
             let Some(Correction { spreads, residual }) = self.correct(&solved)? else { break };
             let is_whole = self.share >= T::one();
-            if has_converged && spreads.len() != self.target.len() {
+            if self.has_converged && spreads.len() != self.target.len() {
                 // The ρ that was reached is that of other contacts.
                 self.before = T::one() / T::zero();
             }
-            // A residual far below the error of the limits says no more of them. Next to a kink r
-            // is known to fewer digits.
-            let known = T::of(BELOW) * solved.found.error.unwrap_or(T::zero());
-            let is_least = residual <= known.max(T::of(LEAST) * T::epsilon())
-                || residual <= T::epsilon().powf(T::of(0.75))
-                    && residual > T::of(STALLED) * self.before;
+            let is_least = self.is_least(residual, solved.found.error);
             if is_least && is_whole && left == 0 {
                 if solved.is_checked {
                     let error = solved.found.error.map(|error| error + residual);
@@ -280,15 +274,13 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 }
                 // The samples at hand serve the check.
                 self.bent = Some(solved.gap);
-                (is_checked, has_converged) = (true, true);
+                (self.is_checked, self.has_converged) = (true, true);
                 continue;
             }
-            if is_least {
-                left = left.saturating_sub(1);
-            }
+            left = if is_least { left.saturating_sub(1) } else { left };
             let falls = residual <= (T::one() - T::of(0.25) * self.part) * self.before;
             if !falls && !is_least {
-                is_checked |= self.less()?;
+                self.is_checked |= self.less()?;
                 continue;
             }
             // A larger load does not make it narrower.
@@ -296,13 +288,33 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 self.check_width(&solved.found, T::one())?;
             }
             // A check may have found other contacts than the one that was sought.
-            is_checked = has_converged || !may_be_one || spreads.len() > 1;
+            self.is_checked = self.has_converged || !self.may_be_one || spreads.len() > 1;
             self.step_to(spreads, residual);
             if !is_whole && residual < T::of(NEAR) {
                 self.more();
             }
         }
         Err(self.not_converged())
+    }
+
+    /// Tells whether no other step is worth its cost: the residual is that of rounding, or far
+    /// below the error of the limits. Next to a kink r is known to fewer digits.
+    fn is_least(&self, residual: T, error: Option<T>) -> bool {
+        let known = T::of(BELOW) * error.unwrap_or(T::zero());
+        residual <= known.max(T::of(LEAST) * T::epsilon())
+            || residual <= T::epsilon().powf(T::of(0.75)) && residual > T::of(STALLED) * self.before
+    }
+
+    /// Goes on from a solve that failed.
+    fn recover(&mut self, error: ContactError<T>) -> Result<(), ContactError<T>> {
+        self.is_checked = true;
+        if self.has_converged && self.may_be_one && !ends(&error) {
+            // One interval meets the equation, but is no contact.
+            (self.has_converged, self.may_be_one) = (false, false);
+            self.restart();
+            return Ok(());
+        }
+        self.retreat(error)
     }
 
     fn not_converged(&mut self) -> ContactError<T> {
@@ -427,8 +439,9 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     }
 
     /// Finds the contact of the bent bodies.
-    fn solve(&mut self, is_checked: bool, is_last: bool) -> Result<Solve<'b, T>, ContactError<T>> {
-        let kappa = self.contact.kappa;
+    fn solve(&mut self) -> Result<Solve<'b, T>, ContactError<T>> {
+        let (kappa, is_checked, is_last) =
+            (self.contact.kappa, self.is_checked, self.has_converged);
         self.kernel.share = if self.along == Along::Kernel { self.share } else { T::one() };
         let is_again = self.bent.is_some();
         let gap = match (self.bent.take(), hull(&self.spreads)) {

@@ -266,6 +266,36 @@ class InvalidThicknessError(InputError):
     thickness: float
 
 
+class InvalidPeriodError(InputError):
+    """The period of the bodies is not a positive finite number.
+
+    Attributes
+    ----------
+    period : float
+        Period as given.
+    """
+
+    period: float
+
+
+class NotPeriodicError(InputError):
+    """A body is not the same at both ends of the period over which it is described.
+
+    Attributes
+    ----------
+    body : str
+        Body.
+    what : str
+        Quantity that differs, for the message.
+    ends : tuple[float, float]
+        Its values at the left and at the right end; of x, less the period at the right end.
+    """
+
+    body: str
+    what: str
+    ends: tuple[float, float]
+
+
 class KernelError(InputError):
     """A kernel, or a compliance by wavenumber, cannot be used.
 
@@ -613,6 +643,21 @@ class BendingError(SolveError):
     residual: float
     solves: int
     share: float
+
+
+class CompleteContactError(SolveError):
+    """The bodies of a row touch all over a period, or so nearly that the gap left is not solved.
+
+    Attributes
+    ----------
+    load : float
+        Load as given; that of complete contact, if none was given.
+    complete : float
+        Load of one period at which they touch everywhere, from the slopes at 1024 places.
+    """
+
+    load: float
+    complete: float
 
 
 class CancelledError(SolveError):
