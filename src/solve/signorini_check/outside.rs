@@ -174,8 +174,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
             return Ok(());
         }
         let mut sampler = Sampler::default();
-        let before = sampler.height(self.gap, from)?;
-        let after = sampler.height(self.gap, to)?;
+        // Like those of the survey, before the bodies are turned.
+        let before = sampler.height_untilted(self.gap, from)?;
+        let after = sampler.height_untilted(self.gap, to)?;
         cost.heights += sampler.cost.evaluations;
         compare([before, after], T::zero())
     }

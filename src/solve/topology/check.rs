@@ -44,9 +44,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if is_said || lifts_off.is_some() && found.reaches(edges) == Ends::both(true) {
             return Ok(lifts_off);
         }
-        if !self.contact.is_trial {
-            self.resolve(found)?;
-        }
+        self.resolve(found)?;
         let gap = &self.contact.gap.tilted(found.tilt);
         let is_proved = self.is_convex() || self.touches_once(gap, found)?;
         if is_proved && !self.corrects_survey()? {
@@ -120,6 +118,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn resolve(&mut self, found: &ContactState<T>) -> Result<(), ContactError<T>> {
         let gap = &self.contact.gap.tilted(found.tilt);
         self.work.workspace.take(gap, self.work.cost)?;
+        if self.contact.is_trial {
+            return Ok(());
+        }
         let contacts = panels::contacts(self.work.integrator, &found.interval);
         let load = found.load.abs() / self.contact.kappa;
         self.work.workspace.look.resolve(gap, load, contacts, self.work.cost)
