@@ -124,6 +124,7 @@ SOFT = lc.Material(ODD, 0.5)
         {},
         {"kappa": ODD},
         {"contact_modulus": 115e3, "edges": (lc.Edge.free(), lc.Edge.free_until(ODD)), "resolution": 1e-3},
+        {"kappa": 2.0, "period": 2.5},
         {"materials": (lc.Material.rigid(), lc.Material(210e3, 0.3)), "plane": "stress", "certified": True},
         {"materials": (lc.Layer(SOFT, ODD, "frictionless"), lc.Layer(SOFT, 1e-3, "bonded"))},
         {"materials": (lc.Layer(lc.Material.rigid(), ODD, SOFT), lc.Layer(SOFT, 1, lc.Material.rigid()))},

@@ -188,6 +188,30 @@ def test_a_burr_is_seen_at_a_resolution() -> None:
     assert len(lc.solve(FLAT, body, kappa=1.0, load=0.02).intervals) == 1
 
 
+def test_bodies_repeat_with_a_period() -> None:
+    height, period, a = 0.02, 1.3, 0.4
+    sine = math.sin(math.pi * a / period) ** 2
+
+    def waves(k: Array) -> tuple[Array, ...]:
+        q = 2.0 * np.pi / period
+        return k, height * (1.0 - np.cos(q * k)), np.ones_like(k), height * q * np.sin(q * k)
+
+    # Westergaard's contact, over both ends of the description.
+    contact = lc.Contact(FLAT, lc.Curve((0.0, period), waves), contact_modulus=1.0, period=period)
+    assert "period=1.3" in repr(contact)
+    solution = contact.solve(load=math.pi * height * sine)
+    assert abs(solution.half_width / a - 1.0) < 1e-13
+    assert abs(solution.intervals[0][1] - (period + a)) < 1e-13
+    peak = 2.0 * math.pi * height / period * math.sqrt(sine)
+    assert np.abs(solution.pressure(np.array([0.0, period, -period])) / peak - 1.0).max() < 1e-13
+    assert solution.certify().is_proved
+    with pytest.raises(lc.errors.CompleteContactError) as failed:
+        contact.solve(load=0.07)
+    assert abs(failed.value.complete - math.pi * height) < 1e-12
+    with pytest.raises(lc.errors.NotPeriodicError):
+        lc.solve(FLAT, BODY, contact_modulus=1.0, period=2.0, load=0.01)
+
+
 def test_nothing_changes() -> None:
     roller = lc.Ellipse.circle(10.0, (-1.0, 1.0))
     contact = lc.Contact(FLAT, roller, kappa=1.0)

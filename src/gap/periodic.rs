@@ -11,6 +11,9 @@ use std::sync::Arc;
 /// Number of places at which the first cut is sought.
 const PLACES: usize = 64;
 
+/// Number of parts of a gap at whose ends a cut is sought.
+const PLACES_IN_GAP: usize = 8;
+
 /// Difference of both ends of a period, as a share of the range of heights or of the steepest
 /// slope, up to which they are one place.
 const SAME: f64 = 1e-9;
@@ -108,7 +111,7 @@ impl<T: Real> Gap<'_, T> {
     }
 
     /// Returns the same bodies over the period that begins at x, or one or more periods beside it.
-    pub(crate) fn cut_at(&self, x: T) -> Self {
+    fn cut_at(&self, x: T) -> Self {
         let Some(period) = self.period else { return self.clone() };
         // Two periods are there.
         let first = self.bodies.iter().filter(|surface| !surface.is_endless());
@@ -116,6 +119,26 @@ impl<T: Real> Gap<'_, T> {
         let first = first.reduce(T::max).unwrap_or(x);
         let from = x - period * ((x - first) / period).floor();
         Self { range: [from, from + period], number: super::number(), ..self.clone() }
+    }
+
+    /// Returns the same bodies over the period that begins where they are furthest apart between
+    /// two places.
+    pub(crate) fn cut_at_highest(
+        &self,
+        [from, to]: [T; 2],
+        cost: &mut Cost,
+    ) -> Result<Self, ContactError<T>> {
+        let mut sampler = Sampler::default();
+        let mut highest: Option<[T; 2]> = None;
+        for i in 0..=PLACES_IN_GAP {
+            let x = from + (to - from) * (T::count(i) / T::count(PLACES_IN_GAP));
+            let height = sampler.height(self, self.folded(x))?;
+            if highest.is_none_or(|[_, most]| height > most) {
+                highest = Some([x, height]);
+            }
+        }
+        cost.heights += sampler.cost.evaluations;
+        Ok(highest.map_or_else(|| self.clone(), |[x, _]| self.cut_at(x)))
     }
 
     /// Tells whether the bodies repeat with a period.

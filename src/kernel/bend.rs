@@ -49,7 +49,8 @@ impl<'b, T: Real> Bend<'b, T> {
         let on = period.map_or(hull, |[left, right]| Interval { left, right });
         // Over one contact a single series converges with the root of its width.
         let cells = ((on.right - on.left) / (T::of(WIDTH) * kernel.distance())).component(0);
-        let count = if spreads.len() == 1 { 1 } else { super::at_least(cells).max(1) };
+        let is_short = spreads.len() == 1 && period.is_none();
+        let count = if is_short { 1 } else { super::at_least(cells).max(1) };
         let rows = (0..count).map(|_| OnceLock::new()).collect();
         let loads = Loads::of(kernel, spreads);
         let steps = Ends::from_fn(|_| OnceLock::new());

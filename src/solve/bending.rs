@@ -248,7 +248,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         if self.spreads.is_empty() {
             self.spreads = self.begin();
         }
-        self.cut();
+        self.cut()?;
         self.is_checked = self.kernel.row.is_some() || self.spreads.len() != 1;
         let mut left = T::DERIVATIVE_ORDER;
         for _ in 0..MAX_SOLVES {
@@ -289,7 +289,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             }
             // A check may have found other contacts than the one that was sought.
             self.is_checked = self.has_converged || !self.may_be_one || spreads.len() > 1;
-            self.step_to(spreads, residual);
+            self.step_to(spreads, residual)?;
             if !is_whole && residual < T::of(NEAR) {
                 self.more();
             }
@@ -337,10 +337,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     }
 
     /// Takes the whole correction of a solve with this residual.
-    fn step_to(&mut self, target: Vec<Spread<T>>, residual: T) {
+    fn step_to(&mut self, target: Vec<Spread<T>>, residual: T) -> Result<(), ContactError<T>> {
         self.from = std::mem::replace(&mut self.spreads, target.clone());
         (self.target, self.part, self.before) = (target, T::one(), residual);
-        self.cut();
+        self.cut()
     }
 
     /// Begins anew.

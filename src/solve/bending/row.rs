@@ -9,11 +9,11 @@ use crate::kernel::punch;
 use crate::{ContactError, Interval, Real, SolveError};
 use std::cmp::Ordering;
 
-/// Largest share of the widest gap that the gap at the cut may fall short of.
-const SHORT: f64 = 0.5;
+/// Least distance of the cut from the contacts, by the widest gap.
+const SHORT: f64 = 0.2;
 
-/// Least distance of the widest contact from the next period that is solved, by its half-width.
-const LEAST_GAP: f64 = 0.02;
+/// Least width of the widest gap that is solved, by the half-width of the widest contact.
+const LEAST_GAP: f64 = 0.04;
 
 /// Share of the period that the first pressures leave free.
 const FREE: f64 = 0.1;
@@ -32,21 +32,21 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         spreads.iter().map(|spread| spread.times(load)).collect()
     }
 
-    /// Cuts the period in the widest gap, unless the present cut is in one about as wide.
-    pub(super) fn cut(&mut self) {
-        let Some(period) = self.kernel.row.as_ref().map(|row| row.period) else { return };
-        let ends = merged(&self.spreads);
-        let (Some(first), Some(last)) = (ends.first(), ends.last()) else { return };
+    /// Cuts the period in the widest gap, where the bodies are furthest apart, unless the present
+    /// cut is about as far from the contacts.
+    pub(super) fn cut(&mut self) -> Result<(), ContactError<T>> {
+        let Some(period) = self.kernel.row.as_ref().map(|row| row.period) else { return Ok(()) };
+        let contacts = merged(&self.spreads);
+        let (Some(first), Some(last)) = (contacts.first(), contacts.last()) else { return Ok(()) };
         let [left, right] = self.gap.range();
         let at_cut = (first.left - left).min(right - last.right);
-        let around = [last.right, first.left + period];
-        let gaps = ends.windows(2).map(|pair| [pair[0].right, pair[1].left]).chain([around]);
-        let width = |gap: [T; 2]| gap[1] - gap[0];
-        let widest = gaps.fold(around, |one, gap| if width(gap) > width(one) { gap } else { one });
-        if at_cut + at_cut >= T::of(SHORT) * width(widest) {
-            return;
+        let [from, to] = widest_gap(&contacts, period);
+        if at_cut >= T::of(SHORT) * (to - from) {
+            return Ok(());
         }
-        self.gap = self.gap.cut_at(T::of(0.5) * (widest[0] + widest[1]));
+        // A contact may be born in the middle of a gap.
+        let quarter = T::of(0.25) * (to - from);
+        self.gap = self.gap.cut_at_highest([from + quarter, to - quarter], self.work.cost)?;
         let gap = &self.gap;
         for spreads in [&mut self.spreads, &mut self.from, &mut self.target] {
             for Spread { on, .. } in spreads {
@@ -55,16 +55,18 @@ impl<T: Real> Bending<'_, '_, '_, T> {
             }
         }
         self.work.workspace.keep(&merged(&self.spreads));
+        Ok(())
     }
 
-    /// Tells the kernel how far the next period is, after a check that it is far enough from some
-    /// contacts.
+    /// Tells the kernel how far the next period is, after a check that some gap is wide enough.
     pub(super) fn look_beside(&mut self, contacts: &[Interval<T>]) -> Result<(), ContactError<T>> {
+        let Some(period) = self.kernel.row.as_ref().map(|row| row.period) else { return Ok(()) };
         let (Some(first), Some(last)) = (contacts.first(), contacts.last()) else { return Ok(()) };
         let on = Interval { left: first.left, right: last.right };
-        let distance = self.kernel.in_range(self.gap.range(), on);
-        let widest = contacts.iter().fold(T::zero(), |most, on| most.max(on.half_width()));
-        match self.kernel.row.is_some() && distance < T::of(LEAST_GAP) * widest {
+        self.kernel.in_range(self.gap.range(), on);
+        let largest = contacts.iter().fold(T::zero(), |most, on| most.max(on.half_width()));
+        let [from, to] = widest_gap(contacts, period);
+        match to - from < T::of(LEAST_GAP) * largest {
             true => Err(self.complete()?),
             false => Ok(()),
         }
@@ -104,6 +106,16 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         let load = load(self.control).unwrap_or(complete);
         Ok(SolveError::CompleteContact { load, complete }.into())
     }
+}
+
+/// Returns the widest gap between some contacts, or between the last one and the next period.
+fn widest_gap<T: Real>(contacts: &[Interval<T>], period: T) -> [T; 2] {
+    let last = contacts.len() - 1;
+    let around = [contacts[last].right, contacts[0].left + period];
+    let gaps = contacts.windows(2).map(|pair| [pair[0].right, pair[1].left]);
+    let wider =
+        |one: [T; 2], gap: [T; 2]| if gap[1] - gap[0] > one[1] - one[0] { gap } else { one };
+    gaps.fold(around, wider)
 }
 
 /// Lists the intervals of pressures from left to right; those before and after a step overlap.
