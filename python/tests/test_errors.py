@@ -263,6 +263,13 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"ratio": 0.7},
     ),
     (lambda: lc.Stress(1.0, 1.0, 0.0).von_mises(0.7), "InvalidPoissonRatioError", {"ratio": 0.7}),
+    (lambda: solved(period=0.0), "InvalidPeriodError", {"period": 0.0}),
+    (lambda: solved(period=2.0), "NotPeriodicError", {"body": "upper", "what": "the slope", "ends": (-1.0, 1.0)}),
+    (
+        lambda: lc.solve(FLAT, FLAT, kappa=1.0, period=1.0, load=1.0),
+        "CompleteContactError",
+        {"load": 1.0, "complete": 0.0},
+    ),
     (lambda: layered(0.0).solve(load=1.0), "InvalidThicknessError", {"body": "upper", "thickness": 0.0}),
     (lambda: layered(1e308).solve(load=1.0), "KernelError", {"at": math.inf}),
     (lambda: layered(1e-5).solve(load=100.0), "LayerTooThinError", {"limit": 100.0}),
