@@ -251,9 +251,9 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Returns the scene with its bodies repeated, if they have a period.
-    pub(crate) fn repeated(&self) -> Result<Option<Self>, ContactError<T>> {
+    pub(crate) fn repeated(&self) -> Result<Option<Box<Self>>, ContactError<T>> {
         let Some(period) = self.beside.period else { return Ok(None) };
-        Ok(Some(Self { gap: self.gap.repeated(period)?, ..self.clone() }))
+        Ok(Some(Box::new(Self { gap: self.gap.repeated(period)?, ..self.clone() })))
     }
 
     /// Sets the conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
@@ -391,7 +391,7 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Returns what the bodies have beside half-planes, if anything.
-    pub(crate) fn kernel_of_bodies(&self) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
+    pub(crate) fn kernel_of_bodies(&self) -> Result<Option<Box<Kernel<'b, T>>>, ContactError<T>> {
         let is_layer = |foundation: &Foundation<T>| matches!(foundation, Foundation::Layer(_));
         let has_layer = match &self.stiffness {
             Stiffness::Materials(foundations, _) => foundations.iter().any(is_layer),

@@ -141,7 +141,7 @@ fn find_checked<'b, T: Real>(
     (work.workspace.report, work.workspace.cell_work) = (Report::new(), 0);
     let kernel = bending::kernel(contact, control)?;
     let repeated = contact.repeated()?;
-    let contact = repeated.as_ref().unwrap_or(contact);
+    let contact = repeated.as_deref().unwrap_or(contact);
     let (mut found, bent) = match kernel {
         None => (find_under(contact, control, work)?, None),
         Some(kernel) => {

@@ -32,7 +32,7 @@ impl<'b, T: Real> Beside<'b, T> {
     pub fn kernel(
         &self,
         layers: Option<Layers<T>>,
-    ) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
+    ) -> Result<Option<Box<Kernel<'b, T>>>, ContactError<T>> {
         let layers = layers.map(|layers| Arc::new(layers) as Arc<dyn SurfaceCompliance<T>>);
         let compliance = match (layers, self.compliance.clone()) {
             (Some(one), Some(other)) => Some(Arc::new(Sum([one, other])) as Arc<_>),
@@ -71,7 +71,7 @@ impl<'b, T: Real> Beside<'b, T> {
             (None, _) => None,
         };
         let is_of_layers = self.is_empty();
-        Ok(Some(Kernel { table, formula, row, is_of_layers, share: T::one() }))
+        Ok(Some(Box::new(Kernel { table, formula, row, is_of_layers, share: T::one() })))
     }
 }
 

@@ -60,7 +60,7 @@ const MOST_TIMES: f64 = 2.0;
 pub(super) fn kernel<'b, T: Real>(
     contact: &Contact<'b, T>,
     control: Control<T>,
-) -> Result<Option<Kernel<'b, T>>, ContactError<T>> {
+) -> Result<Option<Box<Kernel<'b, T>>>, ContactError<T>> {
     let Some(kernel) = contact.kernel_of_bodies()? else { return Ok(None) };
     let refuse = |why| Err(InputError::KernelNotSupported { why }.into());
     if contact.edges.are_adhesive() {
