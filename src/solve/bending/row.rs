@@ -54,6 +54,11 @@ impl<T: Real> Bending<'_, '_, '_, T> {
                 *on = Interval { left: on.left + shift, right: on.right + shift };
             }
         }
+        // Pressures over the cut cannot be mixed with those beside it: the step begins from none.
+        let [left, right] = gap.range();
+        if self.from.iter().any(|spread| spread.on.left <= left || spread.on.right >= right) {
+            self.from.clear();
+        }
         self.work.workspace.keep(&merged(&self.spreads));
         Ok(())
     }
