@@ -43,6 +43,8 @@ mod references;
 mod roller_and_wheel;
 #[path = "../examples/rough_profile.rs"]
 mod rough_profile;
+#[path = "../examples/rough_surface.rs"]
+mod rough_surface;
 #[path = "../examples/speed_vs_error/main.rs"]
 mod speed_vs_error;
 #[path = "../examples/spring.rs"]
@@ -65,7 +67,7 @@ macro_rules! program {
 }
 
 /// Programs, the longest first.
-const PROGRAMS: [Program; 21] = [
+const PROGRAMS: [Program; 22] = [
     program!(fuzz "0" "2000"),
     program!(measured_profile),
     program!(speed_vs_error "--check"),
@@ -85,6 +87,7 @@ const PROGRAMS: [Program; 21] = [
     program!(quickstart),
     program!(roller_and_wheel),
     program!(rough_profile),
+    program!(rough_surface),
     program!(spring),
     program!(stress_field),
 ];
