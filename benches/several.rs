@@ -5,6 +5,7 @@
 //! cargo bench --bench several -- repeat ten cold 100   # only this, 100 times: for instructions.sh
 //! cargo bench --bench several -- many             # contacts against time: docs/several_contacts.md
 //! cargo bench --bench several -- heights CELLS     # the profile, for benches/rivals/bem_rough.py
+//! cargo bench --bench several -- periodic         # rough surfaces that repeat, for tamaas_periodic.py
 //! ```
 //!
 //! - `word`: a circle pressed to half its radius, convexity declared; `one`: the same circle
@@ -17,16 +18,19 @@
 //! first.
 //! Each solution is checked once, for the number of its contacts and its load.
 
+#[path = "../examples/shared/rough.rs"]
+pub(crate) mod rough;
 #[path = "shared/timing.rs"]
 mod timing;
 
 use linecontact::profile::Spline;
 use linecontact::reference::{ClosedForm, Hertz, PolynomialMap};
 use linecontact::{
-    Contact, Control, Convexity, Curve, CurvePoint, Flat, ParametricProfile, Solver,
+    Contact, Control, Convexity, Curve, CurvePoint, Flat, Panels, ParametricProfile, Solver,
 };
 use std::f64::consts::PI;
 use std::hint::black_box;
+use std::time::Instant;
 use timing::time;
 
 const CASES: [&str; 5] = ["word", "one", "two", "ten", "rough"];
@@ -195,7 +199,7 @@ fn row(name: &str, body: &dyn ParametricProfile<f64>, load: f64) {
     let contact = Contact::new(&Flat, body).expect("they overlap");
     let (mut solver, mut contacts) = (Solver::new(), None);
     let row = [1.0, 1.02].map(|factor| {
-        let start = std::time::Instant::now();
+        let start = Instant::now();
         let solution = solver.solve(&contact, Control::Load(factor * load));
         let millis = 1e3 * start.elapsed().as_secs_f64();
         let Ok(solution) = solution else { return format!("{millis:.0}|refused") };
@@ -222,11 +226,59 @@ fn heights(cells: u32) {
     }
 }
 
+/// Rough surface of period 1 that is pressed, E* = 1.
+pub(crate) struct Periodic {
+    /// Largest number of waves a period.
+    pub(crate) most: u32,
+    pub(crate) load: f64,
+    pub(crate) contacts: usize,
+    /// Largest pressure, of the default tolerance. The suite looks whether it is right.
+    pub(crate) peak: f64,
+}
+
+pub(crate) const PERIODIC: [Periodic; 3] = [
+    Periodic { most: 64, load: 0.02, contacts: 6, peak: 0.666_500_259_019_5 },
+    Periodic { most: 64, load: 0.13, contacts: 20, peak: 1.024_871_291_697_2 },
+    Periodic { most: 204, load: 0.3, contacts: 62, peak: 1.665_812_251_398_7 },
+];
+
+/// Prints error of the peak and milliseconds of a first solve and of the next load, 2 % larger:
+/// each the least of five, or of two that take longer than half a second.
+fn periodic() {
+    println!("waves\tload\tcontacts\tpeak\ttolerance\terror\tfirst\tnext");
+    for Periodic { most, load, contacts, peak } in PERIODIC {
+        let body = rough::surface(most);
+        for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-12] {
+            let panels = Panels { tolerance };
+            let (mut least, mut error, mut turn) = ([f64::INFINITY; 2], 0.0, 0);
+            while turn < 5 && (turn < 2 || least[0] < 500.0) {
+                turn += 1;
+                let (mut solver, mut first) = (Solver::new(), None);
+                for (factor, least) in [1.0, 1.02].into_iter().zip(&mut least) {
+                    let start = Instant::now();
+                    let contact = Contact::new(&Flat, &body).expect("they overlap");
+                    let contact = contact.contact_modulus(1.0).period(1.0).quadrature(&panels);
+                    let solution = solver.solve(&contact, Control::Load(factor * load));
+                    let solution = solution.expect("the scene has a solution");
+                    let found = solution.peak().expect("free edges").pressure;
+                    *least = least.min(1e3 * start.elapsed().as_secs_f64());
+                    first.get_or_insert(found);
+                }
+                error = first.map_or(f64::NAN, |found| (found / peak - 1.0).abs());
+            }
+            let [first, next] = least;
+            let what = format!("{most}\t{load:?}\t{contacts}\t{peak:?}\t{tolerance:e}");
+            println!("{what}\t{error:.1e}\t{first:.1}\t{next:.1}");
+        }
+    }
+}
+
 pub(crate) fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words[..] {
         ["many"] => many(),
+        ["periodic"] => periodic(),
         ["heights", cells] => heights(cells.parse().expect("a number")),
         ["repeat", name, way, times] => solves(name, &mut |found, call| {
             if found == way {
@@ -249,6 +301,6 @@ pub(crate) fn main() {
                 });
             }
         }
-        _ => panic!("nothing, `many`, `heights CELLS`, or `repeat SCENE WAY TIMES`"),
+        _ => panic!("nothing, `many`, `periodic`, `heights CELLS`, or `repeat SCENE WAY TIMES`"),
     }
 }

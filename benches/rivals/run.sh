@@ -6,6 +6,7 @@
 # Sets up what it needs in target/rivals (a Python environment with NumPy and SciPy, programs built
 # by the C compiler), says what is not installed and goes on without it. All results go to
 # target/rivals/all.tsv; what is printed is the fastest setting of each program within each error.
+# A second table is that of rough surfaces that repeat, by tamaas; it takes some minutes on its own.
 # README.md says what is compared, and how fair that is.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -78,3 +79,11 @@ awk -F'\t' '
     }' "$to/all.tsv"
 echo
 echo "Evaluations of the curves, microseconds; $(sed -n 's/^model name.*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)"
+
+if "$python" -m pip install --quiet tamaas 2>/dev/null; then
+    echo
+    cargo bench --quiet --bench several -- periodic |
+        "$python" "$here/tamaas_periodic.py" 2>"$to/tamaas_periodic.tsv"
+else
+    without "tamaas: pip finds no wheel for this machine"
+fi

@@ -5,6 +5,7 @@ use super::scenes::random_layer;
 use super::{RIGID, assert_limits, coated, half_plane, layer};
 use crate::common::{Profile, graph};
 use crate::random_scenes::Dice;
+use crate::several_bench::{PERIODIC, Periodic, rough};
 use linecontact::profile::Piecewise;
 use linecontact::{
     Base, Contact, ContactError, Control, Curve, CurvePoint, Edge, EvaluationError, Flat,
@@ -224,6 +225,22 @@ fn random_rows_meet_the_equation() {
     }
     println!("{contacts} contacts, {complete} complete, {refused} refused");
     assert!(1000 * refused <= count, "{refused} refused");
+}
+
+/// The rough surfaces of the benches meet Eq. (1), and their peaks are those with which other
+/// programs are compared.
+#[test]
+fn rough_surfaces_meet_the_equation() {
+    for Periodic { most, load, contacts, peak } in PERIODIC {
+        let body = rough::surface(most);
+        let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(1.0).period(1.0);
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        assert_eq!(solution.intervals().len(), contacts);
+        let off = residual(&solution, PI / 2.0, &[], Some(1.0), |x| body.at(x).dy);
+        let found = solution.peak().unwrap().pressure;
+        println!("{most} {load}: residual {off:.1e}, peak {:.1e}", found / peak - 1.0);
+        assert!(off < 1e-10 && (found / peak - 1.0).abs() < 1e-12);
+    }
 }
 
 /// The rates of pressure, limits and approach of several contacts against differences, and the
