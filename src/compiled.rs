@@ -32,7 +32,7 @@ macro_rules! methods {
 /// Writes the entries into the trait or its `impl`, with an attribute.
 macro_rules! entries {
     ($attribute:meta) => { crate::compiled::methods! { $attribute;
-        panels(rule: &Panels) -> Box<dyn Integrator<Self>> = Ok(Box::new(rule.prepared()?));
+        panels(rule: &Panels) -> Box<dyn Integrator<Self>> = Ok(rule.prepared()?);
         solve<'b>(contact: &Contact<'b, Self>, control: Control<Self>) -> Solution<'b, Self>
             = contact.solve_cold(control);
         solve_next<'b>(

@@ -18,7 +18,7 @@ impl<T: Real> Engine<T> {
     /// Creates the integrator of a quadrature.
     pub fn new(quadrature: &dyn Quadrature<T>) -> Result<Self, ContactError<T>> {
         Ok(match quadrature.panels() {
-            Some(rule) => Self::Panels(Box::new(rule.prepared()?)),
+            Some(rule) => Self::Panels(rule.prepared()?),
             None => Self::Other(quadrature.integrator()?),
         })
     }
@@ -72,7 +72,7 @@ impl<T: Real> Engine<T> {
         &self,
         gap: &Gap<'_, T>,
         on: Interval<T>,
-    ) -> Result<Cow<'_, PanelIntegrator<T>>, ContactError<T>> {
+    ) -> Result<Cow<'_, Box<PanelIntegrator<T>>>, ContactError<T>> {
         if let Self::Panels(own) = self {
             return Ok(Cow::Borrowed(own));
         }

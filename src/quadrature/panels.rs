@@ -67,12 +67,12 @@ impl Panels {
     /// Full accuracy of the number type and of the profiles' formulas.
     pub const FULL: Self = Self { tolerance: 0.0 };
 
-    pub(crate) fn prepared<T: Real>(&self) -> Result<PanelIntegrator<T>, ContactError<T>> {
+    pub(crate) fn prepared<T: Real>(&self) -> Result<Box<PanelIntegrator<T>>, ContactError<T>> {
         if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
             return Err(InputError::InvalidTolerance { tolerance: T::of(self.tolerance) }.into());
         }
         let tolerance = T::of(self.tolerance).max(T::of(FINEST) * T::epsilon());
-        Ok(PanelIntegrator {
+        Ok(Box::new(PanelIntegrator {
             rule: *self,
             panel_set: PanelSet::new(tolerance),
             transform: HilbertTransform::new(),
@@ -82,7 +82,7 @@ impl Panels {
             decay: None,
             several: Several::new(tolerance),
             is_several: false,
-        })
+        }))
     }
 }
 

@@ -22,7 +22,7 @@ use super::newton::linearised::load_of;
 use super::newton::single::{Converged, Effort, NewtonSingle, Verdict};
 use super::one_by_one;
 use crate::gap::{Cost, Survey};
-use crate::quadrature::{Engine, Moments};
+use crate::quadrature::{Engine, Integrator, Moments};
 use crate::solution::ContactState;
 use crate::{ContactError, Edge, InputError, Interval, ProfileError, Real, Side, SolveError};
 
@@ -236,14 +236,14 @@ impl<T: Real> Single<'_, '_, T> {
             (Effort::Full, _) => MAX_AT_END[1],
         };
         let (gap, conditions) = (&self.contact.gap, self.conditions);
-        let find = |integrator: &mut Engine<T>, most_at_end| {
+        let find = |integrator: &mut dyn Integrator<T>, most_at_end| {
             let conditions = &conditions;
             NewtonSingle { integrator, gap, conditions, effort, most_at_end }.converge(from)
         };
-        let verdict = find(self.integrator, most_at_end)?;
+        let verdict = find(&mut **self.integrator, most_at_end)?;
         let is_at_end = matches!(verdict, Err(Stop::Beyond { .. }));
         if effort == Effort::Full && is_at_end && self.may_bear()? {
-            return find(self.integrator, usize::MAX);
+            return find(&mut **self.integrator, usize::MAX);
         }
         Ok(verdict)
     }

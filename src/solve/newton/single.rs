@@ -11,7 +11,7 @@ use super::super::edges::Conditions;
 use super::super::single_contact::MAX_DOUBT;
 use super::linearised::{Linearised, Step, doubtful, moved};
 use super::{Progress, Stop, crosses_breakpoint};
-use crate::quadrature::{Engine, Moments};
+use crate::quadrature::{Integrator, Moments};
 use crate::{ContactError, Ends, Gap, Interval, Real, Side};
 
 /// Trials before the search is given up: for an initial guess, and in full. An initial guess that
@@ -56,7 +56,7 @@ pub(in super::super) enum Effort {
 
 /// Search for the limits of one contact.
 pub(in super::super) struct NewtonSingle<'s, 'b, T: Real> {
-    pub integrator: &'s mut Engine<T>,
+    pub integrator: &'s mut dyn Integrator<T>,
     pub gap: &'s Gap<'b, T>,
     pub conditions: &'s Conditions<T>,
     pub effort: Effort,
