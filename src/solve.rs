@@ -44,6 +44,13 @@ pub(crate) struct Work<'s, T: Real> {
 }
 
 impl<T: Real> Work<'_, T> {
+    /// Tells whether several contacts can be found. The user's own quadratures and searches, and the
+    /// paper's, find only one.
+    fn may_find_several(&self, contact: &Contact<'_, T>) -> bool {
+        let by_newton = self.integrator.panels().is_some() && contact.search.is_none();
+        by_newton && !contact.edges.are_adhesive()
+    }
+
     /// Prepares the contacts found for their pressures, and keeps them for the next search.
     fn keep(&mut self, gap: &Gap<'_, T>, hull: Interval<T>) -> Result<(), ContactError<T>> {
         let Self { integrator, workspace, cost } = self;
@@ -214,8 +221,7 @@ fn may_have_several<T: Real>(
     work: &mut Work<'_, T>,
 ) -> Result<bool, ContactError<T>> {
     use SolveError::{HalfWidthTooLarge, NoEquilibrium, Overlap, Tension};
-    let serves = work.integrator.panels().is_some() && contact.search.is_none();
-    if !serves || contact.single_interval || contact.edges.are_adhesive() {
+    if contact.single_interval || !work.may_find_several(contact) {
         return Ok(false);
     }
     let ContactError::Solve(ref failed) = *error else { return Ok(false) };

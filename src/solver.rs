@@ -105,14 +105,13 @@ impl<T: Real> Solver<T> {
         if !is_warm {
             *self = Self::new();
         }
-        let integrator = match self.integrator.take() {
+        let integrator = match &mut self.integrator {
             Some(integrator) => integrator,
-            None => Arc::new(Engine::new(contact.quadrature)?),
+            none => none.insert(Arc::new(Engine::new(contact.quadrature)?)),
         };
-        let integrator = self.integrator.insert(integrator);
         // A kept solution keeps its integrator.
         let own = Arc::make_mut(integrator);
-        let number = contact.gap().number();
+        let number = contact.gap.number();
         own.reset(self.last.take() == Some(number));
         let mut cost = Cost::default();
         let mut work = Work { integrator: own, workspace: &mut self.workspace, cost: &mut cost };

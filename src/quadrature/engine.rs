@@ -2,7 +2,7 @@
 
 use super::panels::{PanelIntegrator, Several};
 use super::{Integrator, Panels, Quadrature};
-use crate::gap::Gap;
+use crate::gap::{Cost, Gap};
 use crate::{ContactError, Ends, Interval, Real};
 use std::borrow::Cow;
 use std::ops::{Deref, DerefMut};
@@ -26,9 +26,8 @@ impl<T: Real> Engine<T> {
     /// Tells whether the integrator belongs to a quadrature with its settings.
     pub fn is_of(&self, quadrature: &dyn Quadrature<T>) -> bool {
         match (self, quadrature.panels()) {
-            (Self::Panels(own), Some(rule)) => own.rule == rule,
-            (Self::Other(own), None) => quadrature.serves(&**own),
-            _ => false,
+            (Self::Panels(own), rule) => rule == Some(own.rule),
+            (Self::Other(own), rule) => rule.is_none() && quadrature.serves(&**own),
         }
     }
 
@@ -55,12 +54,18 @@ impl<T: Real> Engine<T> {
 
     /// Returns the free limits of a contact, given those of the only one.
     pub fn free_of(&self, contact: usize, of_one: Ends<bool>) -> Ends<bool> {
-        self.several().map_or(of_one, |several| several.free(contact))
+        self.panels().map_or(of_one, |own| own.free_of(contact, of_one))
     }
 
     /// Prepares the contacts found for their pressures. (Several are prepared as they are found.)
     pub fn ready(&mut self, gap: &Gap<'_, T>, one: Interval<T>) -> Result<(), ContactError<T>> {
         if self.several().is_none() { self.prepare(gap, one) } else { Ok(()) }
+    }
+
+    /// Takes the samples still missing for the pressure, and returns their cost; panels miss none.
+    pub fn complete(&self, gap: &Gap<'_, T>) -> Result<Cost, ContactError<T>> {
+        let Self::Other(own) = self else { return Ok(Cost::default()) };
+        own.complete(gap)
     }
 
     /// Returns the panels of the contacts last prepared. Without any, panels are sampled on the same

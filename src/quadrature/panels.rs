@@ -26,7 +26,7 @@ mod several;
 mod treecode;
 
 use super::{Estimate, Integrator, LoadCase, Moments, Quadrature};
-use crate::gap::{Cost, Gap, Guides};
+use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES};
 use crate::{ContactError, Ends, InputError, Interval, Real, Side, SolveError};
 pub(crate) use cauchy_transform::{CauchyTransform, inverse, length, sqrt};
@@ -100,7 +100,8 @@ impl<T: Real> Quadrature<T> for Panels {
 #[derive(Clone)]
 pub(crate) struct PanelIntegrator<T> {
     pub(super) rule: Panels,
-    panel_set: PanelSet<T>,
+    /// Panels of the only contact.
+    pub(crate) panel_set: PanelSet<T>,
     transform: HilbertTransform<T>,
     /// True if the transform belongs to the moments last remembered.
     is_prepared: bool,
@@ -124,6 +125,11 @@ impl<T: Real> PanelIntegrator<T> {
     /// Returns the contacts, if they are several.
     pub(crate) fn several(&self) -> Option<&Several<T>> {
         self.is_several.then_some(&self.several)
+    }
+
+    /// Returns the free limits of a contact, given those of the only one.
+    pub(crate) fn free_of(&self, contact: usize, of_one: Ends<bool>) -> Ends<bool> {
+        self.several().map_or(of_one, |several| several.held()[contact].map(|held| !held))
     }
 
     /// Switches to several contacts.
@@ -168,11 +174,6 @@ impl<T: Real> PanelIntegrator<T> {
     pub(crate) fn rise(&self, from: T, to: T) -> Option<T> {
         let (panel_set, _) = self.only()?;
         Some(panel_set.rise(from, to) - panel_set.tilt * (to - from))
-    }
-
-    /// Passes guides to the panels of the only contact.
-    pub(crate) fn guide(&mut self, guides: Guides<T>) {
-        self.panel_set.guide(guides);
     }
 
     /// Samples between the nodes of the panels of each contact. Tells whether panels have missed a

@@ -248,7 +248,7 @@ fn least_pressure<T: Real>(
     for (i, &on) in several.contacts().iter().enumerate() {
         let borne = if last == 0 { load } else { borne(&pressures, on) };
         let mean = T::of(0.5) * borne.abs() / on.half_width();
-        let free = several.free(i);
+        let free = several.held()[i].map(|held| !held);
         let allowed = found.zero_tolerance() * mean;
         let inside = Inside { pressures: &pressures, gap, on, free, load, hull, allowed };
         let Extremum { x, value } = inside.least(cost)?;

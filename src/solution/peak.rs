@@ -2,7 +2,6 @@
 
 use super::{ContactState, LoadRates, Solution, Solved};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::panels::Panel;
 use crate::quadrature::{Engine, Estimate, LoadCase};
 use crate::{ContactError, EvaluationError, Interval, Real};
 use std::cmp::Ordering;
@@ -174,9 +173,9 @@ pub(super) fn places<T: Real>(
     contact: usize,
     on: Interval<T>,
 ) -> Vec<T> {
-    let span = |(panel, [left, right]): (&Panel<T>, [T; 2])| (Interval { left, right }, panel.n);
-    let panels = integrator.panels().into_iter();
-    let mut spans: Vec<_> = panels.flat_map(|own| own.spans(contact)).map(span).collect();
+    let spans = integrator.panels().into_iter().flat_map(|own| own.spans(contact));
+    let spans = spans.map(|(panel, [left, right])| (Interval { left, right }, panel.n));
+    let mut spans: Vec<_> = spans.collect();
     if spans.is_empty() {
         let mut left = on.left;
         let breakpoints = gap.telling_breakpoints(on, T::one(), MAX_BREAKPOINTS);

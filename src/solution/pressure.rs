@@ -88,7 +88,7 @@ impl<T: Real> Pressure<'_, T> {
 
     pub(crate) fn at_one(&self, x: T) -> Result<T, ContactError<T>> {
         let x = self.gap.folded(x);
-        let estimate = self.estimate(x, &mut Cost::default())?;
+        let estimate = self.estimated(x, &mut Cost::default())?;
         let Estimate { value: pressure, error } = estimate;
         // With other edges a pressure may pass through zero, where only its absolute error counts.
         let free = self.load_case.free == Ends::both(true);
@@ -146,7 +146,7 @@ impl<T: Real> Pressure<'_, T> {
             return rows.try_for_each(|(x, pressures)| self.fill(x, pressures, cost));
         }
         for (&x, pressure) in x.iter().zip(pressures) {
-            *pressure = self.estimate(x, cost)?.value;
+            *pressure = self.estimated(x, cost)?.value;
         }
         Ok(())
     }
@@ -202,6 +202,10 @@ impl<T: Real> Pressure<'_, T> {
     /// # Errors
     /// As [`at`](Self::at), without [`EvaluationError::Unresolved`].
     pub fn estimate(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
+        T::estimate(self, x, cost)
+    }
+
+    pub(crate) fn estimated(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
         let (x, range) = (self.gap.folded(x), self.gap.range());
         if !(x >= range[0] && x <= range[1]) {
             return Err(SolveError::OutsideBodies { x, range }.into());
@@ -253,16 +257,20 @@ impl<T: Real> Pressure<'_, T> {
         Ok(panels.cosines().map(of))
     }
 
+    /// Fills in the pressure unchecked, infinite where a slope jumps.
+    pub(crate) fn unchecked(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+        self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())
+    }
+
     /// Returns the cost of preparing the pressure.
     pub fn cost(&self) -> Cost {
         self.cost
     }
 }
 
-/// Returns the pressure unchecked, infinite where a slope jumps.
 impl<T: Real> Density<T> for Pressure<'_, T> {
     fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
-        self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())
+        T::density(self, x, pressures)
     }
 }
 

@@ -89,11 +89,6 @@ fn by_size<T: Real>(one: T, other: T) -> Ordering {
 }
 
 impl<T: Real> SignoriniCheck<'_, T> {
-    /// Returns the free limits of a contact.
-    fn free(&self, contact: usize) -> Ends<bool> {
-        self.panels.several().map_or(self.found.free, |several| several.free(contact))
-    }
-
     /// Tells whether a place is in a contact under a lighter load.
     fn is_pressed(&self, x: T) -> bool {
         let on = self.pressed.get(self.pressed.partition_point(|on| on.right < x));
@@ -111,7 +106,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let x = ExteriorField::places(on);
             let mut pressures = [T::zero(); POINTS];
             self.pressures(&x, &mut pressures)?;
-            let free = self.free(i);
+            let free = self.panels.free_of(i, self.found.free);
             let mut field = ExteriorField::new(on, free, &x, &pressures);
             self.doubt_at_corners(&mut field)?;
             fields.each.push(field);

@@ -213,7 +213,7 @@ impl<T: Real> Single<'_, '_, T> {
         } else if let Some(look) = self.look {
             let guides = look.guides(self.start());
             if let Some(panels) = self.integrator.panels_mut() {
-                panels.guide(guides);
+                panels.panel_set.guide(guides);
             }
         }
         let (guess, doubt) = match self.initial_guess()? {

@@ -241,14 +241,10 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         self.conditions.at().is_some()
     }
 
-    /// Tells whether several contacts can be sought. The user's own quadratures and searches, and
-    /// the paper's, find only one.
+    /// Tells whether several contacts can be sought.
     fn may_be_several(&self) -> bool {
         let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
-        by_load
-            && !self.contact.edges.are_adhesive()
-            && self.contact.search.is_none()
-            && self.work.integrator.panels().is_some()
+        by_load && self.work.may_find_several(self.contact)
     }
 }
 

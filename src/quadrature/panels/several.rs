@@ -199,11 +199,6 @@ impl<T: Real> Several<T> {
         self.weight.held()
     }
 
-    /// Returns the free limits of a contact.
-    pub fn free(&self, contact: usize) -> Ends<bool> {
-        self.held()[contact].map(|held| !held)
-    }
-
     /// Returns V at a limit, without its infinite part, with the parts by each of the contacts.
     fn at_end_by_each(&self, contact: usize, side: Side) -> T {
         let (part, others) =

@@ -403,7 +403,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         // A corner holds the limit in place of one just beyond it.
         let blind = |contact: Option<usize>, side: Side| {
             let error = self.found.error.unwrap_or(T::zero());
-            let held = contact.filter(|&i| i < contacts.len() && !self.free(i)[side]);
+            let held = contact
+                .filter(|&i| i < contacts.len() && !self.panels.free_of(i, self.found.free)[side]);
             held.map_or(T::zero(), |i| T::of(BLIND) * error * contacts[i].half_width())
         };
         let blind = [blind(next.checked_sub(1), Side::Right), blind(Some(next), Side::Left)];

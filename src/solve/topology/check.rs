@@ -4,7 +4,6 @@ use super::super::signorini_check::{SignoriniCheck, Under};
 use super::{Search, Work, Workspace, asked_by};
 use crate::gap::Gap;
 use crate::quadrature::Integrator;
-use crate::quadrature::panels::PanelIntegrator;
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, SolveError};
 use std::borrow::Cow;
@@ -23,9 +22,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         // Under a lighter load the samples at hand need no more probes.
         let is_known = self.samples == self.work.integrator.cost().samples
             && self.work.workspace.survey_of(gap).is_some_and(|look| look.is_resolved(gap, load));
-        let panels = self.work.integrator.panels_mut().filter(|_| !is_known);
-        let Some(panels) = panels else { return Ok(false) };
-        if !panels.probe(gap, found.interval)? {
+        let Some(panels) = self.work.integrator.panels_mut() else { return Ok(false) };
+        if is_known || !panels.probe(gap, found.interval)? {
             return Ok(false);
         }
         let is_one = panels.several().is_none();
@@ -125,7 +123,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Tells whether the panels have found a feature that a convex survey has missed, and shows it
     /// to the survey.
     pub(super) fn corrects_survey(&mut self) -> Result<bool, ContactError<T>> {
-        let falls = self.work.integrator.panels().is_some_and(PanelIntegrator::falls);
+        let falls = self.work.integrator.panels().is_some_and(|panels| panels.falls());
         if falls {
             self.show_panels()?;
         }
@@ -137,7 +135,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let gap = &self.contact.gap;
         let Work { integrator, workspace, cost } = &mut *self.work;
         let load = workspace.about(gap, asked_by(&self.conditions), cost)?;
-        let rises = integrator.panels().map(PanelIntegrator::rises_between).unwrap_or_default();
+        let rises = integrator.panels().map(|panels| panels.rises_between()).unwrap_or_default();
         workspace.look.learn(gap, &rises, load, cost)
     }
 
