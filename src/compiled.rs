@@ -11,7 +11,8 @@ pub(crate) use crate::quadrature::{Integrator, Panels};
 pub(crate) use crate::solution::{Approaching, certify};
 pub(crate) use crate::stress::{Stress, StressPeak, Subsurface};
 pub(crate) use crate::{
-    Approach, Body, Certificate, Contact, ContactError, ContactRegion, Control, Extremum,
+    Approach, Body, Certificate, Contact, ContactError, ContactRegion, Control, Cost, Estimate,
+    Extremum,
 };
 pub(crate) use crate::{LoadRates, Peak, Pressure, References, Solution, Solver, SpringTable};
 
@@ -32,13 +33,17 @@ macro_rules! methods {
 /// Writes the entries into the trait or its `impl`, with an attribute.
 macro_rules! entries {
     ($attribute:meta) => { crate::compiled::methods! { $attribute;
-        panels(rule: &Panels) -> Box<dyn Integrator<Self>> = rule.prepared();
+        panels(rule: &Panels) -> Box<dyn Integrator<Self>> = Ok(rule.prepared()?);
         solve<'b>(contact: &Contact<'b, Self>, control: Control<Self>) -> Solution<'b, Self>
             = contact.solve_cold(control);
         solve_next<'b>(
             solver: &mut Solver<Self>, contact: &Contact<'b, Self>, control: Control<Self>,
         ) -> Solution<'b, Self> = solver.solve_next(contact, control);
         pressure(pressure: &Pressure<'_, Self>, x: Self) -> Self = pressure.at_one(x);
+        estimate(pressure: &Pressure<'_, Self>, x: Self, cost: &mut Cost) -> Estimate<Self>
+            = pressure.estimated(x, cost);
+        density(pressure: &Pressure<'_, Self>, x: &[Self], values: &mut [Self]) -> ()
+            = pressure.unchecked(x, values);
         pressures(pressure: &Pressure<'_, Self>, x: &[Self], values: &mut [Self]) -> ()
             = pressure.at_all(x, values);
         peak(of: &Solution<'_, Self>) -> Peak<Self> = of.solved().peak();

@@ -403,14 +403,6 @@ impl<'b, T: Real> Contact<'b, T> {
         self.beside.kernel(self.elasticity()?.and_then(|bodies| Layers::of(&bodies)))
     }
 
-    pub(crate) fn gap(&self) -> &Gap<'b, T> {
-        &self.gap
-    }
-
-    pub(crate) fn chosen_quadrature(&self) -> &dyn Quadrature<T> {
-        self.quadrature
-    }
-
     /// Checks the settings of the scene.
     pub(crate) fn check(&self, control: Control<T>) -> Result<(), ContactError<T>> {
         self.elasticity()?;

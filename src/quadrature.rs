@@ -20,15 +20,16 @@
 //! the search for limits. There are two: [`Panels`], the default, and the paper's rule,
 //! [`Midpoint`]. They share no code, and each checks the other.
 
+mod engine;
 mod midpoint;
 pub(crate) mod panels;
 
+pub(crate) use engine::Engine;
 pub use midpoint::{Exponents, Midpoint};
 pub use panels::Panels;
 
 use crate::gap::{Cost, Gap};
 use crate::{ContactError, Ends, Interval, Real};
-use panels::PanelIntegrator;
 use std::any::Any;
 
 /// Factor on the budget of a search whose quadrature keeps no samples.
@@ -39,7 +40,7 @@ const MAX_PRESSURES: usize = 4096;
 
 /// Takes the samples still missing for the pressure, as part of a search that has spent `cost`.
 pub(crate) fn complete<T: Real>(
-    integrator: &dyn Integrator<T>,
+    integrator: &Engine<T>,
     gap: &Gap<'_, T>,
     on: Interval<T>,
     cost: &mut Cost,
@@ -68,6 +69,13 @@ pub trait Quadrature<T: Real>: Send + Sync {
     /// `(integrator as &dyn Any).downcast_ref::<MyIntegrator>()`.
     fn serves(&self, _integrator: &dyn Integrator<T>) -> bool {
         false
+    }
+
+    /// Returns the panels, if this quadrature is them or stands for them: a solve then works on
+    /// panels with these settings, finds several contacts too, and asks nothing else of the
+    /// quadrature. By default `None`: it has an integrator of its own, for one contact.
+    fn panels(&self) -> Option<Panels> {
+        None
     }
 }
 
@@ -169,13 +177,6 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
 
     /// Returns the cost of the work since the last [`reset`](Self::reset).
     fn cost(&self) -> Cost;
-
-    /// Returns the panels, if the integrator works on them: they know of several contacts.
-    /// (Solutions ask so often that a comparison of types would take time.)
-    #[doc(hidden)]
-    fn panels(&self) -> Option<&PanelIntegrator<T>> {
-        None
-    }
 }
 
 /// Load on a contact, and the conditions at its edges.

@@ -3,7 +3,7 @@
 use crate::Real;
 use crate::gap::{Cost, Gap};
 use crate::material::Elasticity;
-use crate::quadrature::Integrator;
+use crate::quadrature::Engine;
 use std::sync::Arc;
 
 // In the order of the documentation.
@@ -91,7 +91,7 @@ pub use uncertainty::Uncertainty;
 pub struct Solution<'b, T: Real> {
     pub(crate) gap: Gap<'b, T>,
     /// Integrator that has solved the contact.
-    pub(crate) integrator: Arc<Box<dyn Integrator<T>>>,
+    pub(crate) integrator: Arc<Engine<T>>,
     pub(crate) kappa: T,
     /// Elasticity of the bodies, if it is known.
     pub(crate) elasticity: Option<[Elasticity<T>; 2]>,
@@ -103,7 +103,7 @@ pub struct Solution<'b, T: Real> {
 impl<T: Real> Solution<'_, T> {
     pub(crate) fn solved(&self) -> Solved<'_, T> {
         let Self { gap, integrator, kappa, found, .. } = self;
-        Solved { gap, integrator: &***integrator, kappa: *kappa, found }
+        Solved { gap, integrator, kappa: *kappa, found }
     }
 }
 

@@ -26,8 +26,7 @@ mod topology;
 
 use crate::contact::{Contact, Control, EdgePressure, check, check_positive, check_within, edges};
 use crate::gap::{Asked, Cost, Gap};
-use crate::quadrature::panels::{self, Several};
-use crate::quadrature::{Integrator, complete};
+use crate::quadrature::{Engine, complete};
 use crate::solution::{ContactState, Outcome, Report, Solution, Solved, Start, certify};
 use crate::{ContactError, Edge, Ends, InputError, Interval, Real, SolveError};
 use by_load::{ByApproach, HalfWidth, Peak};
@@ -39,21 +38,25 @@ pub(crate) use topology::Workspace;
 /// Means of a search: the integrals, the state kept from one solve to the next, and the cost so
 /// far.
 pub(crate) struct Work<'s, T: Real> {
-    pub integrator: &'s mut dyn Integrator<T>,
+    pub integrator: &'s mut Engine<T>,
     pub workspace: &'s mut Workspace<T>,
     pub cost: &'s mut Cost,
 }
 
 impl<T: Real> Work<'_, T> {
+    /// Tells whether several contacts can be found. The user's own quadratures and searches, and the
+    /// paper's, find only one.
+    fn may_find_several(&self, contact: &Contact<'_, T>) -> bool {
+        let by_newton = self.integrator.panels().is_some() && contact.search.is_none();
+        by_newton && !contact.edges.are_adhesive()
+    }
+
     /// Prepares the contacts found for their pressures, and keeps them for the next search.
     fn keep(&mut self, gap: &Gap<'_, T>, hull: Interval<T>) -> Result<(), ContactError<T>> {
         let Self { integrator, workspace, cost } = self;
-        if panels::several(*integrator).is_none() {
-            integrator.prepare(gap, hull)?;
-        }
-        complete(*integrator, gap, hull, cost)?;
-        let contacts = panels::several(*integrator).map(Several::contacts);
-        workspace.keep(contacts.unwrap_or(std::slice::from_ref(&hull)));
+        integrator.ready(gap, hull)?;
+        complete(integrator, gap, hull, cost)?;
+        workspace.keep(integrator.contacts(&hull));
         Ok(())
     }
 }
@@ -96,10 +99,10 @@ impl<'b, T: Real> Contact<'b, T> {
         &self,
         control: Control<T>,
     ) -> Result<Solution<'b, T>, ContactError<T>> {
-        let (mut integrator, mut workspace) = (self.quadrature.integrator()?, Workspace::new());
+        let (mut integrator, mut workspace) = (Engine::new(self.quadrature)?, Workspace::new());
         let mut cost = Cost::default();
         let mut work =
-            Work { integrator: &mut *integrator, workspace: &mut workspace, cost: &mut cost };
+            Work { integrator: &mut integrator, workspace: &mut workspace, cost: &mut cost };
         let (found, bent) = find(self, control, &mut work)?;
         Ok(self.solution(Arc::new(integrator), found, cost, workspace.report, bent))
     }
@@ -107,7 +110,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// Returns the solution from the contact found.
     pub(crate) fn solution(
         &self,
-        integrator: Arc<Box<dyn Integrator<T>>>,
+        integrator: Arc<Engine<T>>,
         found: ContactState<T>,
         cost: Cost,
         report: Report,
@@ -161,9 +164,7 @@ fn find_checked<'b, T: Real>(
     found.ends = contact.ends_of(bent.as_deref().unwrap_or(&contact.gap));
     let gap = bent.as_deref().unwrap_or(&contact.gap).tilted(found.tilt);
     let integrator = &mut *work.integrator;
-    if panels::several(integrator).is_none() {
-        integrator.prepare(&gap, found.interval)?;
-    }
+    integrator.ready(&gap, found.interval)?;
     if found.is_doubtful() {
         work.workspace.report.doubt();
     }
@@ -220,8 +221,7 @@ fn may_have_several<T: Real>(
     work: &mut Work<'_, T>,
 ) -> Result<bool, ContactError<T>> {
     use SolveError::{HalfWidthTooLarge, NoEquilibrium, Overlap, Tension};
-    let serves = panels::is_panels(work.integrator) && contact.search.is_none();
-    if !serves || contact.single_interval || contact.edges.are_adhesive() {
+    if contact.single_interval || !work.may_find_several(contact) {
         return Ok(false);
     }
     let ContactError::Solve(ref failed) = *error else { return Ok(false) };

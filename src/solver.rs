@@ -2,8 +2,7 @@
 
 use crate::contact::Control;
 use crate::gap::Cost;
-use crate::quadrature::Integrator;
-use crate::quadrature::panels::{self, Several};
+use crate::quadrature::Engine;
 use crate::solution::{PartialSlip, Shear, Solution};
 use crate::solve::{Work, Workspace, find};
 use crate::{Contact, ContactError, InputError, Real, SolveError};
@@ -45,7 +44,7 @@ use std::sync::Arc;
 /// # Ok::<(), ContactError<f64>>(())
 /// ```
 pub struct Solver<T: Real> {
-    integrator: Option<Arc<Box<dyn Integrator<T>>>>,
+    integrator: Option<Arc<Engine<T>>>,
     workspace: Workspace<T>,
     /// Number of the gap last solved; its contacts are in the workspace.
     last: Option<u64>,
@@ -77,7 +76,7 @@ impl<T: Real> Solver<T> {
         contact: &Contact<'b, T>,
         control: Control<T>,
     ) -> Result<Solution<'b, T>, ContactError<T>> {
-        let serves = |integrator: &Arc<Box<_>>| contact.chosen_quadrature().serves(&***integrator);
+        let serves = |integrator: &Arc<Engine<T>>| integrator.is_of(contact.quadrature);
         let mut is_warm = self.last.is_some() && self.integrator.as_ref().is_some_and(serves);
         let mut spent = Cost::default();
         loop {
@@ -106,28 +105,20 @@ impl<T: Real> Solver<T> {
         if !is_warm {
             *self = Self::new();
         }
-        let integrator = match self.integrator.take() {
+        let integrator = match &mut self.integrator {
             Some(integrator) => integrator,
-            None => Arc::new(contact.chosen_quadrature().integrator()?),
+            none => none.insert(Arc::new(Engine::new(contact.quadrature)?)),
         };
-        let integrator = self.integrator.insert(integrator);
-        let own = loop {
-            match Arc::get_mut(integrator) {
-                Some(own) => break &mut **own,
-                // A kept solution keeps its integrator.
-                None => *integrator = Arc::new(integrator.fork()),
-            }
-        };
-        let number = contact.gap().number();
+        // A kept solution keeps its integrator.
+        let own = Arc::make_mut(integrator);
+        let number = contact.gap.number();
         own.reset(self.last.take() == Some(number));
         let mut cost = Cost::default();
-        let mut work =
-            Work { integrator: &mut *own, workspace: &mut self.workspace, cost: &mut cost };
+        let mut work = Work { integrator: own, workspace: &mut self.workspace, cost: &mut cost };
         let found = find(contact, control, &mut work);
         *spent += cost;
         let (found, bent) = found?;
-        let one = std::slice::from_ref(&found.interval);
-        self.workspace.keep(panels::several(own).map_or(one, Several::contacts));
+        self.workspace.keep(integrator.contacts(&found.interval));
         self.last = Some(number);
         Ok(contact.solution(integrator.clone(), found, *spent, self.workspace.report, bent))
     }

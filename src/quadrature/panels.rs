@@ -26,139 +26,18 @@ mod several;
 mod treecode;
 
 use super::{Estimate, Integrator, LoadCase, Moments, Quadrature};
-use crate::gap::{Cost, Gap, Guides};
+use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES};
 use crate::{ContactError, Ends, InputError, Interval, Real, Side, SolveError};
 pub(crate) use cauchy_transform::{CauchyTransform, inverse, length, sqrt};
 pub(crate) use edge_integrals::rise as rises_over;
 pub(crate) use half_angle::{Arc, HalfAngle};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
+pub(crate) use panel::Panel;
 use panel::Series;
-pub(crate) use panel::{Panel, nodes, rises_between};
 use panel_set::{FINEST, LEAST};
 pub(crate) use panel_set::{PanelSet, Rises};
-pub(crate) use several::{LoadResponse, Several, System, contacts};
-use std::any::Any;
-/// Tells whether the slope of the gap rises all over the contact last prepared, up to a share of
-/// the largest slope; `None` for other integrators, and for several contacts.
-pub(crate) fn rises<T: Real>(integrator: &dyn Integrator<T>, share: T) -> Option<bool> {
-    let (PanelSet { panels, size, .. }, on) = integrator.panels()?.only()?;
-    Some(edge_integrals::rise(panels, on, share * *size))
-}
-
-/// Tells whether the slope of the gap falls somewhere on the panels of the only contact.
-pub(crate) fn falls<T: Real>(integrator: &dyn Integrator<T>) -> bool {
-    let only = integrator.panels().and_then(PanelIntegrator::only);
-    only.is_some_and(|(panel_set, _)| panel_set.falls().next().is_some())
-}
-
-/// Tells whether the panels of one contact cover an interval, and the slope of the gap rises there.
-pub(crate) fn rises_on<T: Real>(
-    integrator: &dyn Integrator<T>,
-    contact: usize,
-    on: Interval<T>,
-) -> bool {
-    integrator.panels().is_some_and(|integrator| {
-        let (panel_set, _) = integrator.contact(contact);
-        panel_set.covers(on)
-            && edge_integrals::rise(&panel_set.panels, on, T::epsilon() * panel_set.size)
-    })
-}
-
-/// Returns the rise of the gap of the only contact from one place to another by its panels, before
-/// the bodies are turned.
-pub(crate) fn rise<T: Real>(integrator: &dyn Integrator<T>, from: T, to: T) -> Option<T> {
-    let (panel_set, _) = integrator.panels()?.only()?;
-    Some(panel_set.rise(from, to) - panel_set.tilt * (to - from))
-}
-
-/// Lists the parts of one contact that lie on one panel each, with the panel's number of nodes;
-/// none without panels.
-pub(crate) fn spans<T: Real>(
-    integrator: &dyn Integrator<T>,
-    contact: usize,
-) -> Vec<(Interval<T>, usize)> {
-    let span = |(panel, [left, right]): (&Panel<T>, [T; 2])| (Interval { left, right }, panel.n);
-    integrator.panels().map_or(Vec::new(), |own| own.spans(contact).map(span).collect())
-}
-
-/// Shows the panels of an integrator prepared for a contact. For an integrator without panels,
-/// panels are sampled on the same contact.
-///
-/// # Errors
-/// Those of sampling the gap.
-pub(crate) fn with_panels<T: Real, R>(
-    integrator: &dyn Integrator<T>,
-    gap: &Gap<'_, T>,
-    on: Interval<T>,
-    show: impl FnOnce(&PanelIntegrator<T>) -> R,
-) -> Result<R, ContactError<T>> {
-    if let Some(integrator) = integrator.panels() {
-        return Ok(show(integrator));
-    }
-    let mut integrator = Panels::FULL.integrator()?;
-    integrator.prepare(gap, on)?;
-    with_panels(&*integrator, gap, on, show)
-}
-
-/// Switches an integrator of panels to several contacts; `None` for any other integrator, which
-/// handles only one.
-pub(crate) fn several_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option<&mut Several<T>> {
-    let integrator = panels_mut(integrator)?;
-    integrator.is_several = true;
-    integrator.several.spent = integrator.panel_set.cost;
-    Some(&mut integrator.several)
-}
-
-/// Returns the panels of an integrator that works on them.
-fn panels_mut<T: Real>(integrator: &mut dyn Integrator<T>) -> Option<&mut PanelIntegrator<T>> {
-    (integrator as &mut dyn Any).downcast_mut()
-}
-
-/// Passes guides to an integrator of panels.
-pub(crate) fn guide<T: Real>(integrator: &mut dyn Integrator<T>, guides: Guides<T>) {
-    if let Some(integrator) = panels_mut(integrator) {
-        integrator.panel_set.guide(guides);
-    }
-}
-
-/// Samples between the nodes of the panels of each contact. Tells whether panels have missed a
-/// feature and were sampled anew.
-///
-/// # Errors
-/// Those of sampling the bodies.
-pub(crate) fn probe<T: Real>(
-    integrator: &mut dyn Integrator<T>,
-    gap: &Gap<'_, T>,
-    on: Interval<T>,
-) -> Result<bool, ContactError<T>> {
-    let Some(integrator) = panels_mut(integrator) else { return Ok(false) };
-    if integrator.is_several {
-        return integrator.several.probe(gap);
-    }
-    let is_missed = integrator.panel_set.probe(gap, on)?;
-    integrator.moments = integrator.moments.filter(|_| !is_missed);
-    Ok(is_missed)
-}
-
-/// Tells whether an integrator is one of panels.
-pub(crate) fn is_panels<T: Real>(integrator: &dyn Integrator<T>) -> bool {
-    integrator.panels().is_some()
-}
-
-/// Returns the free limits of a contact, given those of the only one.
-pub(crate) fn free_of<T: Real>(
-    integrator: &dyn Integrator<T>,
-    contact: usize,
-    of_one: Ends<bool>,
-) -> Ends<bool> {
-    several(integrator).map_or(of_one, |several| several.held()[contact].map(|held| !held))
-}
-
-/// Returns the several contacts to which an integrator was last switched; `None` if it was one.
-pub(crate) fn several<T: Real>(integrator: &dyn Integrator<T>) -> Option<&Several<T>> {
-    integrator.panels().filter(|panels| panels.is_several).map(|panels| &panels.several)
-}
+pub(crate) use several::{LoadResponse, Several, System};
 
 /// The default quadrature: panels.
 ///
@@ -187,10 +66,8 @@ pub struct Panels {
 impl Panels {
     /// Full accuracy of the number type and of the profiles' formulas.
     pub const FULL: Self = Self { tolerance: 0.0 };
-}
 
-impl Panels {
-    pub(crate) fn prepared<T: Real>(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
+    pub(crate) fn prepared<T: Real>(&self) -> Result<Box<PanelIntegrator<T>>, ContactError<T>> {
         if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
             return Err(InputError::InvalidTolerance { tolerance: T::of(self.tolerance) }.into());
         }
@@ -214,17 +91,17 @@ impl<T: Real> Quadrature<T> for Panels {
         T::panels(self)
     }
 
-    fn serves(&self, integrator: &dyn Integrator<T>) -> bool {
-        integrator.panels().is_some_and(|panels| panels.rule == *self)
+    fn panels(&self) -> Option<Self> {
+        Some(*self)
     }
 }
 
 /// Panels at work: on one contact, or on several at once.
 #[derive(Clone)]
-#[expect(missing_debug_implementations, unnameable_types, reason = "users only pass it on")]
-pub struct PanelIntegrator<T> {
-    rule: Panels,
-    panel_set: PanelSet<T>,
+pub(crate) struct PanelIntegrator<T> {
+    pub(super) rule: Panels,
+    /// Panels of the only contact.
+    pub(crate) panel_set: PanelSet<T>,
     transform: HilbertTransform<T>,
     /// True if the transform belongs to the moments last remembered.
     is_prepared: bool,
@@ -245,6 +122,23 @@ impl<T: Real> PanelIntegrator<T> {
         (!self.is_several).then_some((&self.panel_set, self.transform.on))
     }
 
+    /// Returns the contacts, if they are several.
+    pub(crate) fn several(&self) -> Option<&Several<T>> {
+        self.is_several.then_some(&self.several)
+    }
+
+    /// Returns the free limits of a contact, given those of the only one.
+    pub(crate) fn free_of(&self, contact: usize, of_one: Ends<bool>) -> Ends<bool> {
+        self.several().map_or(of_one, |several| several.held()[contact].map(|held| !held))
+    }
+
+    /// Switches to several contacts.
+    pub(crate) fn several_mut(&mut self) -> &mut Several<T> {
+        self.is_several = true;
+        self.several.spent = self.panel_set.cost;
+        &mut self.several
+    }
+
     /// Returns the panels that hold one contact, and the contact.
     pub(crate) fn contact(&self, i: usize) -> (&PanelSet<T>, Interval<T>) {
         self.only().unwrap_or_else(|| (self.several.panel_set(i), self.several.contacts()[i]))
@@ -254,6 +148,50 @@ impl<T: Real> PanelIntegrator<T> {
     pub(crate) fn spans(&self, contact: usize) -> impl Iterator<Item = (&Panel<T>, [T; 2])> {
         let (PanelSet { panels, .. }, on) = self.contact(contact);
         panel::spans(panel::within(panels, on), on)
+    }
+
+    /// Tells whether the slope of the gap rises all over the only contact, up to a share of the
+    /// largest slope.
+    pub(crate) fn rises(&self, share: T) -> bool {
+        self.only().is_some_and(|(own, on)| edge_integrals::rise(&own.panels, on, share * own.size))
+    }
+
+    /// Tells whether the slope of the gap falls somewhere on the panels of the only contact.
+    pub(crate) fn falls(&self) -> bool {
+        self.only().is_some_and(|(panel_set, _)| panel_set.falls().next().is_some())
+    }
+
+    /// Tells whether the panels of one contact cover an interval, and the slope of the gap rises
+    /// there.
+    pub(crate) fn rises_on(&self, contact: usize, on: Interval<T>) -> bool {
+        let (panel_set, _) = self.contact(contact);
+        panel_set.covers(on)
+            && edge_integrals::rise(&panel_set.panels, on, T::epsilon() * panel_set.size)
+    }
+
+    /// Returns the rise of the gap of the only contact from one place to another, before the bodies
+    /// are turned.
+    pub(crate) fn rise(&self, from: T, to: T) -> Option<T> {
+        let (panel_set, _) = self.only()?;
+        Some(panel_set.rise(from, to) - panel_set.tilt * (to - from))
+    }
+
+    /// Samples between the nodes of the panels of each contact. Tells whether panels have missed a
+    /// feature and were sampled anew.
+    ///
+    /// # Errors
+    /// Those of sampling the bodies.
+    pub(crate) fn probe(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+    ) -> Result<bool, ContactError<T>> {
+        if self.is_several {
+            return self.several.probe(gap);
+        }
+        let is_missed = self.panel_set.probe(gap, on)?;
+        self.moments = self.moments.filter(|_| !is_missed);
+        Ok(is_missed)
     }
 
     /// Returns the slope over the only contact as a cosine series, and a flag: all of it, not only
@@ -314,10 +252,6 @@ impl<T: Real> PanelIntegrator<T> {
 }
 
 impl<T: Real> Integrator<T> for PanelIntegrator<T> {
-    fn panels(&self) -> Option<&Self> {
-        Some(self)
-    }
-
     fn fork(&self) -> Box<dyn Integrator<T>> {
         Box::new(self.clone())
     }

@@ -45,7 +45,7 @@ use super::solved::Solved;
 use super::undeformed_gap::UndeformedGap;
 use crate::gap::Sampler;
 use crate::material::Elasticity;
-use crate::quadrature::{Panels, Quadrature};
+use crate::quadrature::{Engine, Panels};
 use crate::{
     ContactError, InputError, Interval, Real, Reference, References, Side, Solution, SolveError,
 };
@@ -236,12 +236,12 @@ impl<'s, T: Real> Approaching<'s, T> {
     fn first_before_bend(&self) -> Result<(usize, T), ContactError<T>> {
         let Solved { gap, found, .. } = self.solved;
         let before = &gap.before_bend().tilted(found.tilt);
-        let (mut integrator, mut sampler) = (Panels::FULL.integrator()?, Sampler::default());
+        let (mut integrator, mut sampler) = (Engine::new(&Panels::FULL)?, Sampler::default());
         let mut first: Option<(usize, T, T)> = None;
         for (contact, &interval) in self.solved.contacts().iter().enumerate() {
             integrator.prepare(before, interval)?;
             let found = &ContactState { interval, ..*found };
-            let solved = Solved { gap: before, integrator: &*integrator, found, ..self.solved };
+            let solved = Solved { gap: before, integrator: &integrator, found, ..self.solved };
             let least = UndeformedGap::new(solved, 0, self.references.x)?.least;
             let left = if self.solved.contacts().len() > 1 {
                 sampler.height(before, interval.left)?

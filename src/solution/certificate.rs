@@ -289,7 +289,7 @@ mod tests {
     use crate::Panels;
     use crate::gap::Shape;
     use crate::profile::{Curve, CurvePoint, Flat};
-    use crate::quadrature::panels;
+    use crate::quadrature::Engine;
     use crate::search::Newton as Inversion;
     use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -323,8 +323,8 @@ mod tests {
         let inversion = Inversion::default();
         let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(&body), &inversion)?;
         let (kappa, ends, corners) = (FRAC_PI_2, Ends::from(gap.range()), Ends::both(false));
-        let mut solver = crate::quadrature::Quadrature::<f64>::integrator(&Panels::FULL)?;
-        let several = panels::several_mut(&mut *solver).unwrap();
+        let mut solver = Engine::new(&Panels::FULL)?;
+        let several = solver.panels_mut().unwrap().several_mut();
         let (mut system, mut steps) = (System::new(), Vec::new());
         let d = (LOAD / PI).sqrt();
         let [from, to] = [(1.0 - d).sqrt(), (1.0 + d).sqrt()];
@@ -343,7 +343,7 @@ mod tests {
         assert!(steps.iter().all(|step| step.abs() < 1e-12), "{steps:?}");
         let interval = Interval { left: limits[0], right: limits[3] };
         let found = state(interval, Ends::both(0.0), ends);
-        certify(Solved { gap: &gap, integrator: &*solver, kappa, found: &found })
+        certify(Solved { gap: &gap, integrator: &solver, kappa, found: &found })
     }
 
     /// A corner whose strength is unknown may pull.

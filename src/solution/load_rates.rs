@@ -95,7 +95,9 @@ impl<T: Real> LoadRates<T> {
             Touching::Bent(spreads) => spreads.get(i).map(|spread| &spread.on),
             Touching::Several(punch) => punch.contacts().get(i),
         };
-        let i = (0..self.limits.len()).position(|i| contact(i).is_none_or(|on| on.right >= x));
+        // NaN is beyond no limit.
+        let is_beyond = |on: &Interval<T>| on.right < x;
+        let i = (0..self.limits.len()).position(|i| contact(i).is_none_or(|on| !is_beyond(on)));
         let i = i.unwrap_or(self.limits.len());
         match contact(i) {
             Some(on) if on.contains(x) => Ok(match &self.punch {

@@ -2,7 +2,7 @@
 
 use super::{ContactState, LoadRates, Solution, Solved};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Estimate, Integrator, LoadCase, panels};
+use crate::quadrature::{Engine, Estimate, LoadCase};
 use crate::{ContactError, EvaluationError, Interval, Real};
 use std::cmp::Ordering;
 
@@ -131,7 +131,7 @@ impl<T: Real> Solved<'_, T> {
 /// the largest: a pressure rises above a grid point by less than it has risen from the lower
 /// neighbour.
 pub(crate) fn largest_pressure<T: Real>(
-    integrator: &dyn Integrator<T>,
+    integrator: &Engine<T>,
     gap: &Gap<'_, T>,
     load_case: &LoadCase<T>,
     (contact, on): (usize, Interval<T>),
@@ -168,12 +168,14 @@ pub(crate) fn largest_pressure<T: Real>(
 /// Returns rising places over a contact that crowd at the ends of its panels, about twice as many
 /// as the panels have nodes. Without panels they crowd at the limits and breakpoints.
 pub(super) fn places<T: Real>(
-    integrator: &dyn Integrator<T>,
+    integrator: &Engine<T>,
     gap: &Gap<'_, T>,
     contact: usize,
     on: Interval<T>,
 ) -> Vec<T> {
-    let mut spans = panels::spans(integrator, contact);
+    let spans = integrator.panels().into_iter().flat_map(|own| own.spans(contact));
+    let spans = spans.map(|(panel, [left, right])| (Interval { left, right }, panel.n));
+    let mut spans: Vec<_> = spans.collect();
     if spans.is_empty() {
         let mut left = on.left;
         let breakpoints = gap.telling_breakpoints(on, T::one(), MAX_BREAKPOINTS);
@@ -240,7 +242,7 @@ pub(super) fn narrow<T: Real>(
 
 /// Search for the largest pressure.
 struct Search<'s, 'g, T: Real> {
-    integrator: &'s dyn Integrator<T>,
+    integrator: &'s Engine<T>,
     gap: &'s Gap<'g, T>,
     load_case: &'s LoadCase<T>,
     cost: &'s mut Cost,

@@ -5,8 +5,8 @@ use super::pressure_integral::Density;
 use super::solved::Solved;
 use super::{ContactState, Solution};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::panels::{self, CauchyTransform, PanelIntegrator};
-use crate::quadrature::{Estimate, Integrator, LoadCase};
+use crate::quadrature::panels::CauchyTransform;
+use crate::quadrature::{Engine, Estimate, LoadCase};
 use crate::{ContactError, Ends, EvaluationError, Interval, Real, Side, SolveError};
 
 /// Largest number of points of a contact that [`Pressure::sample`] takes.
@@ -42,7 +42,7 @@ impl<T: Real> Solution<'_, T> {
 /// ```
 pub struct Pressure<'p, T: Real> {
     gap: &'p Gap<'p, T>,
-    integrator: &'p dyn Integrator<T>,
+    integrator: &'p Engine<T>,
     load_case: LoadCase<T>,
     /// Interval from the first limit to the last.
     on: Interval<T>,
@@ -88,7 +88,7 @@ impl<T: Real> Pressure<'_, T> {
 
     pub(crate) fn at_one(&self, x: T) -> Result<T, ContactError<T>> {
         let x = self.gap.folded(x);
-        let estimate = self.estimate(x, &mut Cost::default())?;
+        let estimate = self.estimated(x, &mut Cost::default())?;
         let Estimate { value: pressure, error } = estimate;
         // With other edges a pressure may pass through zero, where only its absolute error counts.
         let free = self.load_case.free == Ends::both(true);
@@ -146,7 +146,7 @@ impl<T: Real> Pressure<'_, T> {
             return rows.try_for_each(|(x, pressures)| self.fill(x, pressures, cost));
         }
         for (&x, pressure) in x.iter().zip(pressures) {
-            *pressure = self.estimate(x, cost)?.value;
+            *pressure = self.estimated(x, cost)?.value;
         }
         Ok(())
     }
@@ -175,7 +175,7 @@ impl<T: Real> Pressure<'_, T> {
         let count = count.clamp(2, MAX_POINTS);
         let mut points = Vec::with_capacity(count * self.contacts.len());
         for (i, on) in self.contacts.iter().enumerate() {
-            let free = panels::free_of(self.integrator, i, self.load_case.free);
+            let free = self.integrator.free_of(i, self.load_case.free);
             if free.left {
                 points.push([on.left, T::zero()]);
             }
@@ -202,12 +202,16 @@ impl<T: Real> Pressure<'_, T> {
     /// # Errors
     /// As [`at`](Self::at), without [`EvaluationError::Unresolved`].
     pub fn estimate(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
+        T::estimate(self, x, cost)
+    }
+
+    pub(crate) fn estimated(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
         let (x, range) = (self.gap.folded(x), self.gap.range());
         if !(x >= range[0] && x <= range[1]) {
             return Err(SolveError::OutsideBodies { x, range }.into());
         }
         let (_, Some(on)) = Interval::find(self.contacts, x) else {
-            let free = |i| panels::free_of(self.integrator, i, self.load_case.free);
+            let free = |i| self.integrator.free_of(i, self.load_case.free);
             let is_held = |(i, on): (usize, &Interval<T>)| {
                 Side::BOTH.into_iter().any(|side| x == on[side] && !free(i)[side])
             };
@@ -239,19 +243,23 @@ impl<T: Real> Pressure<'_, T> {
     /// Returns the Cauchy transform of the pressure.
     pub(crate) fn cauchy_transform(&self) -> Result<CauchyTransform<T>, ContactError<T>> {
         let Self { gap, integrator, load_case, on, .. } = self;
-        let of = |panels: &PanelIntegrator<T>| CauchyTransform::of(panels, load_case);
-        panels::with_panels(*integrator, gap, *on, of)
+        Ok(CauchyTransform::of(&*integrator.panels_over(gap, *on)?, load_case))
     }
 
     /// Returns the pressure on a single contact as seen from below; `None` for several.
     pub(crate) fn potential(&self) -> Result<Option<Potential<T>>, ContactError<T>> {
         let Self { gap, integrator, load_case, on, .. } = self;
         let LoadCase { kappa, load, .. } = *load_case;
-        panels::with_panels(*integrator, gap, *on, |panels| {
-            let (series, is_whole) = panels.cosines()?;
-            let [_, strengths] = panels.strengths(load_case);
-            Some(Potential { on: *on, series, is_whole, strengths, kappa, load })
-        })
+        let panels = integrator.panels_over(gap, *on)?;
+        let [_, strengths] = panels.strengths(load_case);
+        let of =
+            |(series, is_whole)| Potential { on: *on, series, is_whole, strengths, kappa, load };
+        Ok(panels.cosines().map(of))
+    }
+
+    /// Fills in the pressure unchecked, infinite where a slope jumps.
+    pub(crate) fn unchecked(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+        self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())
     }
 
     /// Returns the cost of preparing the pressure.
@@ -260,10 +268,9 @@ impl<T: Real> Pressure<'_, T> {
     }
 }
 
-/// Returns the pressure unchecked, infinite where a slope jumps.
 impl<T: Real> Density<T> for Pressure<'_, T> {
     fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
-        self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())
+        T::density(self, x, pressures)
     }
 }
 

@@ -2,15 +2,15 @@
 
 use super::ContactState;
 use crate::gap::Gap;
-use crate::quadrature::Integrator;
-use crate::quadrature::panels::{self, Several};
+use crate::quadrature::Engine;
+use crate::quadrature::panels::Several;
 use crate::{ContactError, Ends, EvaluationError, Interval, Real, Side};
 
 /// Contact with all data of its pressure, prepared.
 #[derive(Clone, Copy)]
 pub(crate) struct Solved<'s, T: Real> {
     pub gap: &'s Gap<'s, T>,
-    pub integrator: &'s dyn Integrator<T>,
+    pub integrator: &'s Engine<T>,
     pub kappa: T,
     pub found: &'s ContactState<T>,
 }
@@ -26,7 +26,7 @@ impl<'s, T: Real> Solved<'s, T> {
 
     /// Returns the contacts on their panels, if they are several.
     pub fn several(&self) -> Option<&'s Several<T>> {
-        panels::several(self.integrator)
+        self.integrator.several()
     }
 
     /// Returns the slope of the gap in a contact on its panels, and its uncertainty; `None` without
@@ -38,7 +38,7 @@ impl<'s, T: Real> Solved<'s, T> {
 
     /// Returns the free limits of a contact.
     pub fn free(&self, contact: usize) -> Ends<bool> {
-        panels::free_of(self.integrator, contact, self.found.free)
+        self.integrator.free_of(contact, self.found.free)
     }
 
     /// Returns the strengths of the singularities at the limits of a contact.
@@ -64,6 +64,6 @@ impl<'s, T: Real> Solved<'s, T> {
 
     /// Returns the contacts, from left to right.
     pub fn contacts(&self) -> &'s [Interval<T>] {
-        self.several().map_or(std::slice::from_ref(&self.found.interval), Several::contacts)
+        self.integrator.contacts(&self.found.interval)
     }
 }

@@ -11,7 +11,7 @@
 use super::solved::Solved;
 use crate::numerics::chebyshev::{evaluate, primitive, value_at};
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::quadrature::panels::{self, Arc, HalfAngle, Panel};
+use crate::quadrature::panels::{Arc, HalfAngle, Panel};
 use crate::search::{Bracket, Brent, LimitSearch, SearchError, StoppingCriteria};
 use crate::{ContactError, Real};
 
@@ -32,21 +32,20 @@ pub(super) struct UndeformedGap<T> {
 impl<T: Real> UndeformedGap<T> {
     pub fn new(solved: Solved<'_, T>, contact: usize, at: T) -> Result<Self, ContactError<T>> {
         let (gap, on) = (solved.gap, solved.contacts()[contact]);
-        panels::with_panels(solved.integrator, gap, on, |integrator| {
-            let mut found = Self { mean: T::zero(), least: T::zero(), at: None };
-            let (mut height, mut left) = (T::zero(), HalfAngle::of(on, on.left));
-            for (panel, x) in integrator.spans(contact) {
-                let right = HalfAngle::of(on, x[1]);
-                let arc = Arc::new(x[1] - x[0], left, right, on.right - on.left);
-                if at >= x[0] && at <= x[1] {
-                    found.at = Some(height + panel.rise(x[0], at));
-                }
-                height = found.add(panel, x, &arc, height);
-                left = right;
+        let integrator = solved.integrator.panels_over(gap, on)?;
+        let mut found = Self { mean: T::zero(), least: T::zero(), at: None };
+        let (mut height, mut left) = (T::zero(), HalfAngle::of(on, on.left));
+        for (panel, x) in integrator.spans(contact) {
+            let right = HalfAngle::of(on, x[1]);
+            let arc = Arc::new(x[1] - x[0], left, right, on.right - on.left);
+            if at >= x[0] && at <= x[1] {
+                found.at = Some(height + panel.rise(x[0], at));
             }
-            found.mean *= T::frac_1_pi();
-            found
-        })
+            height = found.add(panel, x, &arc, height);
+            left = right;
+        }
+        found.mean *= T::frac_1_pi();
+        Ok(found)
     }
 
     /// Adds the heights on a panel between two places, given the height at the left one; returns

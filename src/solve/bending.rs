@@ -18,7 +18,6 @@ use super::by_load::{self, ByApproach, HalfWidth, Peak};
 use super::{Contact, Control, Work, find_under};
 use crate::gap::Gap;
 use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
-use crate::quadrature::panels;
 use crate::solution::{ContactState, Integrals, Report, Solved};
 use crate::{ContactError, Edge, Ends, InputError, Interval, Real, SolveError};
 use std::sync::Arc;
@@ -72,7 +71,7 @@ pub(super) fn kernel<'b, T: Real>(
     if contact.edge_pressure.is_some() {
         return refuse("the edges are by Eq. (6)");
     }
-    if contact.quadrature.integrator()?.panels().is_none() {
+    if contact.quadrature.panels().is_none() {
         return refuse("the quadrature is another");
     }
     if kernel.row.is_none() {
@@ -462,7 +461,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         (workspace.report, workspace.cell_work) = (Report::new(), 0);
         let found = find_under(&scene, control, self.work)?;
         self.check_width(&found, T::of(MOST_TIMES))?;
-        let contacts = panels::contacts(self.work.integrator, &found.interval).to_vec();
+        let contacts = self.work.integrator.contacts(&found.interval).to_vec();
         self.look_beside(&contacts)?;
         self.work.keep(&gap.tilted(found.tilt), found.interval)?;
         let is_checked = is_checked && is_last || self.contact.single_interval;

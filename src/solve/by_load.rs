@@ -23,7 +23,6 @@ use super::edges::{Conditions, Given};
 use super::{Contact, Control, Work, bending, check_positive, topology};
 use crate::gap::{Asked, Gap};
 use crate::kernel::Kernel;
-use crate::quadrature::panels;
 use crate::search::SearchError;
 use crate::solution::{ContactState, Report, Solved};
 use crate::{ContactError, Ends, EvaluationError, Interval, Real, SolveError};
@@ -267,7 +266,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
             let [value, rate, doubt] = match self.quantity.at(&found, self) {
                 // Two contacts are about to merge: under a slightly larger load they are one.
                 Err(ContactError::Evaluation(EvaluationError::NoLoadDerivative { .. }))
-                    if panels::several(self.work.integrator).is_some() && !is_aside =>
+                    if self.work.integrator.several().is_some() && !is_aside =>
                 {
                     (load, is_aside) = (load * T::of(LEAST_STEP), true);
                     continue;

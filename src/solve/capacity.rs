@@ -8,7 +8,7 @@ use super::Contact;
 use super::edges::Conditions;
 use super::equations::{Equations, Residual};
 use crate::gap::Cost;
-use crate::quadrature::{Integrator, LoadCase, Panels, Quadrature};
+use crate::quadrature::{Engine, LoadCase, Panels};
 use crate::search::{Bracket, Brent, try_find};
 use crate::solution::largest_pressure;
 use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
@@ -74,29 +74,28 @@ pub(super) fn capacity<T: Real>(
     cost: &mut Cost,
 ) -> Option<(Interval<T>, Capacity<T>)> {
     let Ends { left, right } = ends;
-    let mut integrator = Panels::FULL.integrator().ok()?;
-    let mut rough = Panels { tolerance: ROUGH_TOLERANCE }.integrator().ok()?;
+    let mut full = Engine::new(&Panels::FULL).ok()?;
+    let mut rough = Engine::new(&Panels { tolerance: ROUGH_TOLERANCE }).ok()?;
     let fixed = conditions.limits();
     let equations = Equations::Strength { conditions: *conditions, load: T::zero() };
-    let (full, rough) = (&mut *integrator, &mut *rough);
-    let mut pinned = Pinned { contact, equations, full, rough };
+    let mut pinned = Pinned { contact, equations, full: &mut full, rough: &mut rough };
     let (left, right) = (fixed.left.unwrap_or(left), fixed.right.unwrap_or(right));
     let found = pinned.largest_contact(Interval { left, right });
     let capacity = found.and_then(|(on, side)| {
-        let m = integrator.moments(&contact.gap, on).ok()?;
+        let m = full.moments(&contact.gap, on).ok()?;
         let load = conditions.balance(on, &m)?;
-        integrator.prepare(&contact.gap, on).ok()?;
+        full.prepare(&contact.gap, on).ok()?;
         let free = conditions.edges.map(|edge| edge.is_free());
         let load_case = LoadCase { kappa: conditions.kappa, load, free };
         let peak = if fixed == Ends::both(None) {
             let (gap, cost) = (&contact.gap, &mut Cost::default());
-            largest_pressure(&*integrator, gap, &load_case, (0, on), cost).ok()?.1.value
+            largest_pressure(&full, gap, &load_case, (0, on), cost).ok()?.1.value
         } else {
             T::one() / T::zero()
         };
         Some((on, Capacity { half_width: on.half_width(), end: ends[side], load, peak }))
     });
-    *cost += integrator.cost() + rough.cost();
+    *cost += full.cost() + rough.cost();
     // Without adhesion, a contact in total tension does not count: the bodies touch next to a
     // hollow.
     let pulled = conditions.edges.are_adhesive();
@@ -107,9 +106,9 @@ pub(super) fn capacity<T: Real>(
 struct Pinned<'s, T: Real> {
     contact: &'s Contact<'s, T>,
     equations: Equations<T>,
-    full: &'s mut dyn Integrator<T>,
+    full: &'s mut Engine<T>,
     /// Integrator that samples to within [`ROUGH_TOLERANCE`].
-    rough: &'s mut dyn Integrator<T>,
+    rough: &'s mut Engine<T>,
 }
 
 impl<T: Real> Pinned<'_, T> {
@@ -174,7 +173,7 @@ impl<T: Real> Pinned<'_, T> {
 fn residual<T: Real>(
     contact: &Contact<'_, T>,
     equations: &Equations<T>,
-    integrator: &mut dyn Integrator<T>,
+    integrator: &mut Engine<T>,
     on: Interval<T>,
 ) -> Option<Residual<T>> {
     // Panels much wider than a contact would miss narrow features in it.

@@ -3,7 +3,7 @@
 use super::EdgePressure;
 use super::edges::Conditions;
 use crate::gap::{Cost, Gap};
-use crate::quadrature::{Integrator, LoadCase, Moments, complete};
+use crate::quadrature::{Engine, LoadCase, Moments, complete};
 use crate::{ContactError, Ends, InputError, Interval, Real, Side};
 
 /// Conditions at the edges, as two numbers to be brought to zero.
@@ -132,7 +132,7 @@ impl<T: Real> Equations<T> {
         &self,
         gap: &Gap<'_, T>,
         on: Interval<T>,
-        integrator: &mut dyn Integrator<T>,
+        integrator: &mut Engine<T>,
         cost: &mut Cost,
     ) -> Result<Residual<T>, ContactError<T>> {
         match *self {
@@ -200,7 +200,7 @@ fn of_pressures<T: Real>(
     wanted: EdgePressure<T>,
     gap: &Gap<'_, T>,
     on: Interval<T>,
-    integrator: &mut dyn Integrator<T>,
+    integrator: &mut Engine<T>,
     cost: &mut Cost,
 ) -> Result<Residual<T>, ContactError<T>> {
     let (two, [x_b, x_a]) = (T::of(2.0), wanted.places(on));

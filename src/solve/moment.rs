@@ -7,7 +7,6 @@
 use super::edges::{Conditions, Given};
 use super::topology::{self, Borne};
 use super::{Contact, Work};
-use crate::quadrature::panels;
 use crate::solution::ContactState;
 use crate::{ContactError, InputError, Interval, Real, SolveError};
 
@@ -59,7 +58,7 @@ pub(super) fn find<T: Real>(
     if contact.search.is_some() {
         return refuse("a strategy of one's own adjusts the limits");
     }
-    if !panels::is_panels(work.integrator) {
+    if work.integrator.panels().is_none() {
         return refuse("the quadrature is another");
     }
     let LineOfLoad { load, at, rounding } = line;
@@ -86,7 +85,7 @@ pub(super) fn find<T: Real>(
         }
         found => found?,
     };
-    let contacts = panels::contacts(work.integrator, &found.interval);
+    let contacts = work.integrator.contacts(&found.interval);
     let narrowest = contacts.iter().map(Interval::half_width).reduce(|one, other| one.min(other));
     let doubt = rounding / narrowest.unwrap_or(T::one());
     found.error = found.error.map(|error| error + doubt);

@@ -28,7 +28,7 @@ use super::edges::{Conditions, Given};
 use super::equations::{Equations, Residual};
 use super::first_contact::first_contact;
 use crate::gap::{Cost, Gap, Sampler};
-use crate::quadrature::Integrator;
+use crate::quadrature::Engine;
 use crate::search::{Bracket, LimitSearch, try_find};
 use crate::{ContactError, Ends, Interval, Real, SolveError};
 use centre::Centred;
@@ -53,7 +53,7 @@ pub(super) struct Nested<T> {
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     equations: Equations<T>,
-    integrator: &mut dyn Integrator<T>,
+    integrator: &mut Engine<T>,
     start: Option<Interval<T>>,
     cost: &mut Cost,
 ) -> Result<Nested<T>, ContactError<T>> {
@@ -98,7 +98,7 @@ pub(super) fn find<T: Real>(
 fn place<T: Real>(
     contact: &Contact<'_, T>,
     equations: Equations<T>,
-    integrator: &mut dyn Integrator<T>,
+    integrator: &mut Engine<T>,
     half_width: T,
     start: Option<Interval<T>>,
     cost: &mut Cost,
@@ -155,7 +155,7 @@ struct TrialContact<T> {
 struct NestedSearch<'s, T: Real> {
     equations: Equations<T>,
     gap: &'s Gap<'s, T>,
-    integrator: &'s mut dyn Integrator<T>,
+    integrator: &'s mut Engine<T>,
     cost: &'s mut Cost,
     strategy: &'s dyn LimitSearch<T>,
     /// Point of first contact.
@@ -175,7 +175,7 @@ impl<'s, T: Real> NestedSearch<'s, T> {
     fn new(
         contact: &'s Contact<'s, T>,
         equations: Equations<T>,
-        integrator: &'s mut dyn Integrator<T>,
+        integrator: &'s mut Engine<T>,
         origin: T,
         cost: &'s mut Cost,
     ) -> Self {

@@ -11,7 +11,7 @@ mod step;
 
 use super::exterior_field::{ExteriorField, ExteriorFields, POINTS};
 use crate::gap::{Cost, Gap};
-use crate::quadrature::panels;
+use crate::quadrature::panels::PanelIntegrator;
 use crate::quadrature::{Integrator, LoadCase};
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -55,7 +55,8 @@ const MAX_STEPS: usize = 4;
 /// Contacts of a solution, ready to be checked.
 pub(super) struct SignoriniCheck<'c, T: Real> {
     pub gap: &'c Gap<'c, T>,
-    pub integrator: &'c dyn Integrator<T>,
+    pub panels: &'c PanelIntegrator<T>,
+    pub contacts: &'c [Interval<T>],
     pub kappa: T,
     pub found: &'c ContactState<T>,
     /// Places where two contacts have met within rounding, as at a concave kink.
@@ -88,10 +89,6 @@ fn by_size<T: Real>(one: T, other: T) -> Ordering {
 }
 
 impl<T: Real> SignoriniCheck<'_, T> {
-    fn contacts(&self) -> &[Interval<T>] {
-        panels::contacts(self.integrator, &self.found.interval)
-    }
-
     /// Tells whether a place is in a contact under a lighter load.
     fn is_pressed(&self, x: T) -> bool {
         let on = self.pressed.get(self.pressed.partition_point(|on| on.right < x));
@@ -105,11 +102,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// Computes the series of the pressure in each contact.
     pub fn fields(&self, fields: &mut ExteriorFields<T>) -> Result<(), ContactError<T>> {
         fields.each.clear();
-        for (i, &on) in self.contacts().iter().enumerate() {
+        for (i, &on) in self.contacts.iter().enumerate() {
             let x = ExteriorField::places(on);
             let mut pressures = [T::zero(); POINTS];
             self.pressures(&x, &mut pressures)?;
-            let free = panels::free_of(self.integrator, i, self.found.free);
+            let free = self.panels.free_of(i, self.found.free);
             let mut field = ExteriorField::new(on, free, &x, &pressures);
             self.doubt_at_corners(&mut field)?;
             fields.each.push(field);
@@ -119,7 +116,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
 
     fn pressures(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
         let cost = &mut Cost::default();
-        self.integrator.pressures(self.gap, &self.load_case(), x, pressures, cost)
+        self.panels.pressures(self.gap, &self.load_case(), x, pressures, cost)
     }
 
     /// Takes more pressures in contacts whose series leave more than a share of the load uncertain:
@@ -195,12 +192,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         tension_spans.clear();
         let adhesive = self.found.adhesive != Ends::both(false);
         let is_same = |(one, other): (&Interval<T>, &Interval<T>)| one.is_same(other);
-        let is_pressed = self.pressed.len() == self.contacts().len()
-            && self.pressed.iter().zip(self.contacts()).all(is_same);
-        if adhesive
-            || is_pressed
-            || panels::rises(self.integrator, self.found.zero_tolerance()) == Some(true)
-        {
+        let is_pressed = self.pressed.len() == self.contacts.len()
+            && self.pressed.iter().zip(self.contacts).all(is_same);
+        if adhesive || is_pressed || self.panels.rises(self.found.zero_tolerance()) {
             return Ok(None);
         }
         self.fields(fields)?;
@@ -226,7 +220,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let faint = |x: T| T::of(FAINT) * T::pi() * least / self.kappa * on.chebyshev_weight(x);
             // Features that the panels resolve are not narrower than the spacing of their nodes.
             nodes.clear();
-            panels::nodes(self.integrator, i, faint, nodes);
+            self.panels.nodes(i, faint, nodes);
             nodes.retain(|&x| on.contains(x) && !self.is_pressed(x));
             for places in nodes.chunks(POINTS) {
                 let mut pressures = [T::zero(); POINTS];
@@ -274,7 +268,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             // Next to an undeclared kink a value may be all uncertainty.
             if pressure.is_finite() {
                 let cost = &mut Cost::default();
-                let estimate = self.integrator.estimate(self.gap, &self.load_case(), x, cost)?;
+                let estimate = self.panels.estimate(self.gap, &self.load_case(), x, cost)?;
                 if pressure + estimate.error >= T::zero() {
                     continue;
                 }
@@ -291,7 +285,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// Returns the nearest place with pressure to one without, among places each twice as far away
     /// as the one before; or else the end of the contact.
     fn presses_from(&self, x: T, side: Side) -> Result<T, ContactError<T>> {
-        let on = self.contacts().iter().find(|on| on.contains(x)).unwrap_or(&self.found.interval);
+        let on = self.contacts.iter().find(|on| on.contains(x)).unwrap_or(&self.found.interval);
         let end = on[side];
         let mut places = [x; HALVES];
         let mut away = end - x;

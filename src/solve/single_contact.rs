@@ -22,7 +22,7 @@ use super::newton::linearised::load_of;
 use super::newton::single::{Converged, Effort, NewtonSingle, Verdict};
 use super::one_by_one;
 use crate::gap::{Cost, Survey};
-use crate::quadrature::{Integrator, Moments, panels};
+use crate::quadrature::{Engine, Integrator, Moments};
 use crate::solution::ContactState;
 use crate::{ContactError, Edge, InputError, Interval, ProfileError, Real, Side, SolveError};
 
@@ -48,7 +48,7 @@ pub(super) struct Single<'s, 'b, T: Real> {
     /// Interval of the first search; if `None`, the lowest gap, if known.
     pub start: Option<Interval<T>>,
     pub look: Option<&'s Survey<T>>,
-    pub integrator: &'s mut dyn Integrator<T>,
+    pub integrator: &'s mut Engine<T>,
     pub cost: &'s mut Cost,
     /// Capacity of the bodies, once computed. The inner `None`: unknown, as for one of several
     /// contacts, since bodies that touch in several places bear more than one.
@@ -152,7 +152,7 @@ impl<T: Real> Single<'_, '_, T> {
         let last = last.filter(|on| on.left >= range[0] && on.right <= range[1]);
         // A search of one limit at a time knows no tilt.
         let turns = matches!(self.conditions.given, Given::Centre { .. });
-        if !turns && (self.contact.search.is_some() || !panels::is_panels(self.integrator)) {
+        if !turns && (self.contact.search.is_some() || self.integrator.panels().is_none()) {
             return self.by_nested_search().map_err(|error| self.because(error));
         }
         let is_one_of_several = matches!(self.bears, Some(None));
@@ -212,7 +212,9 @@ impl<T: Real> Single<'_, '_, T> {
             self.integrator.clear_samples();
         } else if let Some(look) = self.look {
             let guides = look.guides(self.start());
-            panels::guide(self.integrator, guides);
+            if let Some(panels) = self.integrator.panels_mut() {
+                panels.panel_set.guide(guides);
+            }
         }
         let (guess, doubt) = match self.initial_guess()? {
             Some(guess) => guess,
@@ -238,10 +240,10 @@ impl<T: Real> Single<'_, '_, T> {
             let conditions = &conditions;
             NewtonSingle { integrator, gap, conditions, effort, most_at_end }.converge(from)
         };
-        let verdict = find(self.integrator, most_at_end)?;
+        let verdict = find(&mut **self.integrator, most_at_end)?;
         let is_at_end = matches!(verdict, Err(Stop::Beyond { .. }));
         if effort == Effort::Full && is_at_end && self.may_bear()? {
-            return find(self.integrator, usize::MAX);
+            return find(&mut **self.integrator, usize::MAX);
         }
         Ok(verdict)
     }
@@ -288,7 +290,8 @@ impl<T: Real> Single<'_, '_, T> {
             within && on.half_width() >= T::of(0.3) * covered.half_width()
         };
         if !self.integrator.sampled_interval().is_some_and(serves) {
-            self.integrator.sample_over(gap, self.around(on, T::of(ROUGH_UNCERTAINTY)), false)?;
+            let span = self.around(on, T::of(ROUGH_UNCERTAINTY));
+            self.integrator.sample_over(gap, span, false)?;
         }
         let m = self.integrator.moments(gap, on)?;
         let conditions = &self.conditions;

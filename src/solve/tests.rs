@@ -3,6 +3,7 @@
 use super::{Work, Workspace, find};
 use crate::gap::Cost;
 use crate::profile::{Parabola, ParametricProfile};
+use crate::quadrature::Engine;
 use crate::solution::{Attempt, Outcome, Report, Start};
 use crate::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, EdgePressure, Flat, InputError,
@@ -15,10 +16,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Returns the attempts of a search that fails, and its error.
 fn failure(contact: &Contact<'_, f64>, load: f64) -> (Report, ContactError<f64>) {
     let (mut integrator, mut workspace) =
-        (contact.quadrature.integrator().unwrap(), Workspace::new());
+        (Engine::new(contact.quadrature).unwrap(), Workspace::new());
     let mut cost = Cost::default();
-    let mut work =
-        Work { integrator: &mut *integrator, workspace: &mut workspace, cost: &mut cost };
+    let mut work = Work { integrator: &mut integrator, workspace: &mut workspace, cost: &mut cost };
     let error =
         find(contact, Control::Load(load), &mut work).map(|(found, _)| found.interval).unwrap_err();
     (workspace.report, error)

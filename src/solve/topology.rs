@@ -21,7 +21,6 @@ use super::signorini_check::step_of_heights;
 use super::single_contact::Single;
 use super::{Contact, Work};
 use crate::gap::{Asked, Survey};
-use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
 use crate::{ContactError, Interval, Real, Side, SolveError};
 pub(super) use bears::{Borne, bears, up_to_corner};
@@ -212,7 +211,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         let (contact, Work { integrator, workspace, cost }) = (self.contact, &mut *self.work);
         let look = workspace.survey_of(&contact.gap).filter(|_| looks);
         let (conditions, start, bears) = (self.conditions, contact.start, None);
-        Single { contact, conditions, start, look, integrator: *integrator, cost, bears }.find(last)
+        Single { contact, conditions, start, look, integrator, cost, bears }.find(last)
     }
 
     /// Tells whether the gap has several valleys, and no other start is known.
@@ -242,14 +241,10 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         self.conditions.at().is_some()
     }
 
-    /// Tells whether several contacts can be sought. The user's own quadratures and searches, and
-    /// the paper's, find only one.
+    /// Tells whether several contacts can be sought.
     fn may_be_several(&self) -> bool {
         let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
-        by_load
-            && !self.contact.edges.are_adhesive()
-            && self.contact.search.is_none()
-            && panels::is_panels(self.work.integrator)
+        by_load && self.work.may_find_several(self.contact)
     }
 }
 

@@ -218,3 +218,32 @@ fn a_gap_knows_the_breakpoints_of_both_bodies_where_both_are() {
         assert_eq!((*range, up, down), ([-0.875, 1.5], &all, &falling));
     }
 }
+
+/// Panels under another name, said to be them or not.
+struct Renamed(Option<Panels>);
+
+impl Quadrature<f64> for Renamed {
+    fn integrator(&self) -> Asked<Box<dyn Integrator<f64>>> {
+        Panels::FULL.integrator()
+    }
+    fn panels(&self) -> Option<Panels> {
+        self.0
+    }
+}
+
+/// Only panels that are said to be them find two contacts, and go on with one another's samples.
+#[test]
+fn a_quadrature_may_stand_for_panels() {
+    let body = graph(-2.5, 2.5, |x| [x.powi(4) - 2.0 * x * x, 4.0 * x.powi(3) - 4.0 * x]);
+    let (contact, load) = (on_flat(body), Control::Load(0.5));
+    let (said, unsaid) = (Renamed(Some(Panels::FULL)), Renamed(None));
+    let mut solver = Solver::new();
+    let solution = solver.solve(&contact.clone().quadrature(&said), load).unwrap();
+    assert_eq!(solution.intervals().len(), 2);
+    assert_eq!(solution.intervals(), contact.solve(load).unwrap().intervals());
+    drop(solution);
+    let again = solver.solve(&contact, load).unwrap();
+    assert_eq!((again.intervals().len(), again.cost().samples), (2, 0));
+    let error = contact.quadrature(&unsaid).solve(load).unwrap_err();
+    assert!(matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. })), "{error}");
+}

@@ -1,10 +1,10 @@
 //! One polynomial piece of the slope, and the verdict on its coefficients.
 
+use super::PanelIntegrator;
 use super::panel_set::PanelSet;
 use crate::numerics::chebyshev::{
     Coeffs, MAX_SIZE, SIZES, Table, expand, primitive, size_for, value_at, values,
 };
-use crate::quadrature::Integrator;
 use crate::real::same;
 use crate::{Interval, Real};
 
@@ -197,47 +197,44 @@ pub(super) fn across<'p, const N: usize, T: Real>(
 /// there the pressure goes to minus infinity.
 const LEAST_FALL: f64 = 16.0;
 
-/// Adds the nodes of the panels of one contact, if there are panels, and the places where the slope
-/// falls. Of many panels, it adds those whose slope differs by more than allowed from one smooth
-/// series over the contact.
-pub(crate) fn nodes<T: Real>(
-    integrator: &dyn Integrator<T>,
-    contact: usize,
-    allowed: impl Fn(T) -> T,
-    nodes: &mut Vec<T>,
-) {
-    let contact = integrator.panels().map(|own| own.contact(contact));
-    let Some((PanelSet { panels, tolerance, size, .. }, on)) = contact else { return };
-    let panels = within(panels, on);
-    let falls = |pair: &&[Panel<T>]| {
-        let error = pair[0].error.max(pair[1].error) + *tolerance * *size;
-        pair[0].at_ends()[1] - pair[1].at_ends()[0] > T::of(LEAST_FALL) * error
-    };
-    nodes.extend(panels.windows(2).filter(falls).map(|pair| pair[0].x[1]));
-    if panels.len() < MANY {
-        return nodes.extend(panels.iter().flat_map(Panel::nodes));
-    }
-    let is_same = |_: &Panel<T>, missed: T, x| missed.abs() <= allowed(x);
-    nodes.extend(across::<SMOOTH, T>(panels, on, is_same).1.flat_map(Panel::nodes));
-}
-
-/// Lists the rises of the gap from node to node of the panels of all contacts, before the bodies
-/// are turned.
-pub(crate) fn rises_between<T: Real>(integrator: &dyn Integrator<T>) -> Vec<([T; 2], T)> {
-    // A first estimate has seen too little.
-    let known = integrator.panels().filter(|own| own.decay.is_none());
-    let count = super::several(integrator).map_or(1, |several| several.contacts().len());
-    let sets = known.into_iter().flat_map(|own| (0..count).map(|i| own.contact(i).0));
-    let mut rises = Vec::new();
-    for PanelSet { panels, tilt, .. } in sets {
-        for panel in panels {
-            let nodes: Vec<T> = panel.nodes().collect();
-            let rise = |x: &[T]| ([x[0], x[1]], panel.rise(x[0], x[1]) - *tilt * (x[1] - x[0]));
-            let x = [&[panel.x[0]], &nodes[..], &[panel.x[1]]].concat();
-            rises.extend(x.windows(2).map(rise));
+impl<T: Real> PanelIntegrator<T> {
+    /// Adds the nodes of the panels of one contact, and the places where the slope falls. Of many
+    /// panels, it adds those whose slope differs by more than allowed from one smooth series over
+    /// the contact.
+    pub(crate) fn nodes(&self, contact: usize, allowed: impl Fn(T) -> T, nodes: &mut Vec<T>) {
+        let (PanelSet { panels, tolerance, size, .. }, on) = self.contact(contact);
+        let panels = within(panels, on);
+        let falls = |pair: &&[Panel<T>]| {
+            let error = pair[0].error.max(pair[1].error) + *tolerance * *size;
+            pair[0].at_ends()[1] - pair[1].at_ends()[0] > T::of(LEAST_FALL) * error
+        };
+        nodes.extend(panels.windows(2).filter(falls).map(|pair| pair[0].x[1]));
+        if panels.len() < MANY {
+            return nodes.extend(panels.iter().flat_map(Panel::nodes));
         }
+        let is_same = |_: &Panel<T>, missed: T, x| missed.abs() <= allowed(x);
+        nodes.extend(across::<SMOOTH, T>(panels, on, is_same).1.flat_map(Panel::nodes));
     }
-    rises
+
+    /// Lists the rises of the gap from node to node of the panels of all contacts, before the
+    /// bodies are turned.
+    pub(crate) fn rises_between(&self) -> Vec<([T; 2], T)> {
+        let mut rises = Vec::new();
+        // A first estimate has seen too little.
+        if self.decay.is_some() {
+            return rises;
+        }
+        let count = self.several().map_or(1, |several| several.contacts().len());
+        for PanelSet { panels, tilt, .. } in (0..count).map(|i| self.contact(i).0) {
+            for panel in panels {
+                let nodes: Vec<T> = panel.nodes().collect();
+                let rise = |x: &[T]| ([x[0], x[1]], panel.rise(x[0], x[1]) - *tilt * (x[1] - x[0]));
+                let x = [&[panel.x[0]], &nodes[..], &[panel.x[1]]].concat();
+                rises.extend(x.windows(2).map(rise));
+            }
+        }
+        rises
+    }
 }
 
 /// Lists panels with their parts of an interval; the outermost parts reach its ends.

@@ -58,21 +58,12 @@ use super::cauchy_transform::CauchyTransform;
 use super::panel_set::PanelSet;
 use crate::gap::{Cost, Gap};
 use crate::numerics::{Combine, FarField};
-use crate::quadrature::Integrator;
 use crate::{ContactError, Ends, Interval, Real, Side};
 pub(crate) use load_response::LoadResponse;
 use one_of_several::OneOfSeveral;
 pub(crate) use system::System;
 pub(super) use terms::Terms;
 use weight::Weight;
-
-/// Returns the contacts of an integrator: several, or else one.
-pub(crate) fn contacts<'i, T: Real>(
-    integrator: &'i dyn Integrator<T>,
-    one: &'i Interval<T>,
-) -> &'i [Interval<T>] {
-    super::several(integrator).map_or(std::slice::from_ref(one), Several::contacts)
-}
 
 /// Least half of a gap, in half-widths of the contact next to it, for a trial.
 const LEAST_TRIAL_ROOM: f64 = 0.005;

@@ -165,7 +165,7 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Lists places in a contact that crowd at its limits and at breakpoints.
     fn grid(&self, contact: usize, on: Interval<T>) -> Vec<T> {
-        places(&**self.solution.integrator, &self.solution.gap, contact, on)
+        places(&self.solution.integrator, &self.solution.gap, contact, on)
     }
 
     /// Lists the same places, and those beside a contact at which a coating bends.

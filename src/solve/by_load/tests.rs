@@ -2,7 +2,7 @@
 
 use super::{ByLoad, Quantity, Value, find};
 use crate::gap::Cost;
-use crate::quadrature::{Panels, Quadrature};
+use crate::quadrature::{Engine, Panels};
 use crate::solution::{ContactState, LoadRates, Solved};
 use crate::solve::{Contact, Work, Workspace};
 use crate::{ContactError, Control, Curve, CurvePoint, Flat, ParametricProfile, SolveError};
@@ -81,9 +81,9 @@ fn body(tall: f64) -> Box<dyn ParametricProfile<f64>> {
 
 /// Finds the load under which a quantity has a value.
 fn sought(contact: &Contact<'_, f64>, made: &Made, wanted: f64) -> Result<f64, ContactError<f64>> {
-    let mut integrator = Panels::FULL.integrator().unwrap();
+    let mut integrator = Engine::new(&Panels::FULL).unwrap();
     let (mut workspace, mut cost) = (Workspace::new(), Cost::default());
-    let (integrator, workspace) = (&mut *integrator, &mut workspace);
+    let (integrator, workspace) = (&mut integrator, &mut workspace);
     let mut work = Work { integrator, workspace, cost: &mut cost };
     find(contact, made, ("quantity", wanted), &mut work).map(|found| found.load)
 }

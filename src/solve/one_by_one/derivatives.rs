@@ -6,7 +6,7 @@
 //! need no steps.
 
 use crate::gap::{Cost, Gap};
-use crate::quadrature::Integrator;
+use crate::quadrature::Engine;
 use crate::solve::equations::Equations;
 use crate::{ContactError, Ends, Interval, Real, SolveError};
 
@@ -21,7 +21,7 @@ const STEP_SHARE: f64 = 1e-5;
 pub(super) fn differentiate<T: Real>(
     equations: &Equations<T>,
     gap: &Gap<'_, T>,
-    integrator: &mut dyn Integrator<T>,
+    integrator: &mut Engine<T>,
     found: Interval<T>,
     half_width: Option<T>,
     cost: &mut Cost,

@@ -4,7 +4,7 @@
 use super::SignoriniCheck;
 use super::beside::{Beside, Verdict};
 use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
-use crate::quadrature::panels::{self, Rises};
+use crate::quadrature::panels::Rises;
 use crate::solution::BLIND;
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{ContactError, Ends, Interval, Real, Side};
@@ -162,7 +162,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     fn compare_heights(&self, look: &Survey<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
         let Interval { left, right } = self.found.interval;
         let [from, to] = [left, right].map(|x| self.gap.nearest(x));
-        let Some(by_slopes) = panels::rise(self.integrator, from, to) else { return Ok(()) };
+        let Some(by_slopes) = self.panels.rise(from, to) else { return Ok(()) };
         let deformed = T::of(STEP) * self.found.load.abs() / self.kappa;
         let compare = |[before, after]: [T; 2], doubt: T| {
             let by_heights = after - before;
@@ -187,7 +187,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         look: &'s Survey<T>,
         low: LowPoint<T>,
     ) -> impl Iterator<Item = LowPoint<T>> + use<'s, T> {
-        let contacts = self.contacts();
+        let contacts = self.contacts;
         let [first, after] = low.between.map_or([0, 0], |[from, to]| {
             let first = contacts.partition_point(|on| on.right <= from[0]);
             [first, first + contacts[first..].iter().take_while(|on| on.left < to[0]).count()]
@@ -236,7 +236,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         [dips, open]: [&mut Vec<[T; 2]>; 2],
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
-        let (contacts, hull) = (self.contacts(), self.found.interval);
+        let (contacts, hull) = (self.contacts, self.found.interval);
         let last = contacts.len() - 1;
         // The first flag: the gap is open somewhere after the last dip.
         let (mut is_parted, mut is_hidden) = (true, false);
@@ -358,7 +358,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// under that load, less the present ones and the spans next to them on which the gap is
     /// convex.
     fn list_closed_before(&self, closed: &mut Vec<Interval<T>>) {
-        let contacts = self.contacts();
+        let contacts = self.contacts;
         closed.clear();
         for wide in self.widest {
             let first = contacts.partition_point(|on| on.right <= wide.left);
@@ -374,7 +374,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     (false, true) => Some(i - 1),
                     _ => None,
                 };
-                let opens = |contact| panels::rises_on(self.integrator, contact, span);
+                let opens = |contact| self.panels.rises_on(contact, span);
                 if left < right && !beside.is_some_and(opens) {
                     closed.push(span);
                 }
@@ -384,14 +384,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
 
     /// Describes the region next to a contact: before one of them, or beyond the last.
     fn beside(&self, fields: &ExteriorFields<T>, look: &Survey<T>, next: usize) -> Beside<T> {
-        let (contacts, [from, to]) = (self.contacts(), self.gap.range());
+        let (contacts, [from, to]) = (self.contacts, self.gap.range());
         let (contact, side) = match next.checked_sub(1) {
             None => (0, Side::Left),
             Some(before) => (before, Side::Right),
         };
         let edge = contacts[contact][side];
         let at = self.gap.nearest(edge);
-        let (height, hidden) = match panels::several(self.integrator) {
+        let (height, hidden) = match self.panels.several() {
             Some(several) => (several.height(contact, side), T::zero()),
             None => (self.gap.turned(at, look.height(at)), look.doubt_at(at)),
         };
@@ -404,9 +404,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         // A corner holds the limit in place of one just beyond it.
         let blind = |contact: Option<usize>, side: Side| {
             let error = self.found.error.unwrap_or(T::zero());
-            let held = contact.filter(|&i| {
-                i < contacts.len() && !panels::free_of(self.integrator, i, self.found.free)[side]
-            });
+            let held = contact
+                .filter(|&i| i < contacts.len() && !self.panels.free_of(i, self.found.free)[side]);
             held.map_or(T::zero(), |i| T::of(BLIND) * error * contacts[i].half_width())
         };
         let blind = [blind(next.checked_sub(1), Side::Right), blind(Some(next), Side::Left)];
@@ -449,7 +448,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     ) -> Result<(Option<[T; 2]>, bool), ContactError<T>> {
         let mut sampler = Sampler::default();
         let height = sampler.height(self.gap, x)?;
-        let at_edge = match panels::several(self.integrator) {
+        let at_edge = match self.panels.several() {
             Some(_) => from.height,
             None => sampler.height(self.gap, self.gap.nearest(from.edge))?,
         };

@@ -12,7 +12,6 @@ use super::super::capacity::Capacity;
 use super::super::edges::Conditions;
 use super::{Contact, Search, Work};
 use crate::quadrature::LoadCase;
-use crate::quadrature::panels;
 use crate::solution::{ContactState, Solved, largest_pressure};
 use crate::{ContactError, Ends, Interval, Real, Side};
 
@@ -239,7 +238,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     fn capacity(&mut self, found: &ContactState<T>, side: Side) -> Option<Capacity<T>> {
         let ContactState { interval: on, load, free, .. } = *found;
         let (integrator, gap) = (&*self.work.integrator, &self.contact.gap.tilted(found.tilt));
-        let contacts = panels::contacts(integrator, &on);
+        let contacts = integrator.contacts(&on);
         let load_case = LoadCase { kappa: self.contact.kappa, load, free };
         let mut peak = if free == Ends::both(true) { T::zero() } else { T::one() / T::zero() };
         for contact in contacts.iter().copied().enumerate() {

@@ -3,9 +3,10 @@
 use super::super::signorini_check::{SignoriniCheck, Under};
 use super::{Search, Work, Workspace, asked_by};
 use crate::gap::Gap;
-use crate::quadrature::{Panels, Quadrature, panels};
+use crate::quadrature::Integrator;
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, SolveError};
+use std::borrow::Cow;
 
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Looks for narrow features in the contacts found; tells whether the panels missed one. Fails
@@ -21,10 +22,11 @@ impl<T: Real> Search<'_, '_, '_, T> {
         // Under a lighter load the samples at hand need no more probes.
         let is_known = self.samples == self.work.integrator.cost().samples
             && self.work.workspace.survey_of(gap).is_some_and(|look| look.is_resolved(gap, load));
-        if is_known || !panels::probe(self.work.integrator, gap, found.interval)? {
+        let Some(panels) = self.work.integrator.panels_mut() else { return Ok(false) };
+        if is_known || !panels.probe(gap, found.interval)? {
             return Ok(false);
         }
-        let is_one = panels::several(self.work.integrator).is_none();
+        let is_one = panels.several().is_none();
         // No single contact balances with the feature, and the search has begun anew without it.
         if is_one && self.lost.iter().any(|on| on.is_same(&found.interval)) {
             return Err(self.no_balance());
@@ -59,30 +61,23 @@ impl<T: Real> Search<'_, '_, '_, T> {
         gap: &Gap<'_, T>,
         found: &ContactState<T>,
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {
-        let kappa = self.contact.kappa;
-        // If the integrator has no panels, some are made for the check of the contact.
-        let mut own = None;
-        if panels::several(self.work.integrator).is_none() {
-            let integrator = if panels::is_panels(self.work.integrator) {
-                &mut *self.work.integrator
-            } else {
-                &mut **own.insert(Panels::FULL.integrator()?)
-            };
-            integrator.prepare(gap, found.interval)?;
-        }
-        let integrator = own.as_deref().unwrap_or(&*self.work.integrator);
-        let covers = self.covers(found);
+        let (kappa, covers) = (self.contact.kappa, self.covers(found));
         let (interval, load) = (found.interval, found.load);
+        // If the integrator has no panels, some are made for the check of the contact.
+        if self.work.integrator.panels().is_some() {
+            self.work.integrator.ready(gap, interval)?;
+        }
+        let panels = &self.work.integrator.panels_over(gap, interval)?;
         let Workspace { look, fields, tension_spans, passed, overlaps, .. } =
             &mut *self.work.workspace;
         let under = [load / kappa, found.tilt];
-        let on = Under { under, samples: integrator.cost().samples };
-        let contacts = panels::contacts(integrator, &interval);
+        let on = Under { under, samples: panels.cost().samples };
+        let contacts = self.work.integrator.contacts(&interval);
         // A gap open under a heavier load is open under a lighter one; a place pressed under a
         // lighter load is pressed under a heavier one.
         let (widest, pressed) = (passed.under_more(under), passed.under_less(on, contacts));
         let closed = &self.closed;
-        let check = SignoriniCheck { gap, integrator, kappa, found, closed, widest, pressed };
+        let check = SignoriniCheck { gap, panels, contacts, kappa, found, closed, widest, pressed };
         fields.each.clear();
         overlaps.dips.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
@@ -107,7 +102,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             passed.keep(on, contacts);
             overlaps.closed_before.reserve(1 + 2 * contacts.len());
         }
-        if let Some(own) = own {
+        if let Cow::Owned(own) = panels {
             self.work.cost.heights += own.cost().evaluations;
         }
         Ok(overlap
@@ -121,7 +116,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if self.contact.is_trial {
             return Ok(());
         }
-        let contacts = panels::contacts(self.work.integrator, &found.interval);
+        let contacts = self.work.integrator.contacts(&found.interval);
         let load = found.load.abs() / self.contact.kappa;
         self.work.workspace.look.resolve(gap, load, contacts, self.work.cost)
     }
@@ -129,7 +124,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Tells whether the panels have found a feature that a convex survey has missed, and shows it
     /// to the survey.
     pub(super) fn corrects_survey(&mut self) -> Result<bool, ContactError<T>> {
-        let falls = panels::falls(self.work.integrator);
+        let falls = self.work.integrator.panels().is_some_and(|panels| panels.falls());
         if falls {
             self.show_panels()?;
         }
@@ -141,13 +136,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let gap = &self.contact.gap;
         let Work { integrator, workspace, cost } = &mut *self.work;
         let load = workspace.about(gap, asked_by(&self.conditions), cost)?;
-        workspace.look.learn(gap, &panels::rises_between(*integrator), load, cost)
+        let rises = integrator.panels().map(|panels| panels.rises_between()).unwrap_or_default();
+        workspace.look.learn(gap, &rises, load, cost)
     }
 
     /// Tells whether one contact covers the bodies from end to end.
     fn covers(&self, found: &ContactState<T>) -> bool {
         let (on, ends) = (found.interval, self.contact.ends());
-        let is_one = panels::several(self.work.integrator).is_none();
+        let is_one = self.work.integrator.several().is_none();
         is_one && on.left <= ends.left && on.right >= ends.right
     }
 
@@ -157,7 +153,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         gap: &Gap<'_, T>,
         found: &ContactState<T>,
     ) -> Result<bool, ContactError<T>> {
-        let is_one = panels::several(self.work.integrator).is_none();
+        let is_one = self.work.integrator.several().is_none();
         if !is_one || found.adhesive != Ends::both(false) || self.covers(found) {
             return Ok(false);
         }

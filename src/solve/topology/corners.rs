@@ -24,7 +24,6 @@ use super::super::newton::several::{NewtonSeveral, put};
 use super::{Conditions, Given, Search, Workspace};
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::quadrature::panels;
 use crate::solution::ContactState;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
@@ -294,7 +293,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Lists the limits that are held, with the strengths of their singularities.
     fn strengths(&self, found: &ContactState<T>) -> Vec<Held<T>> {
         let NewtonSeveral { on, held, .. } = &self.work.workspace.newton;
-        let several = panels::several(self.work.integrator);
+        let several = self.work.integrator.several();
         let limits = (0..on.len()).flat_map(|i| Side::BOTH.map(|side| (i, side)));
         let limits = limits.filter(|&(i, side)| held[i][side]);
         limits

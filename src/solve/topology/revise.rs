@@ -16,7 +16,6 @@ use super::super::active_set::{Coarse, NotFound, Scene, active_set};
 use super::super::newton::Stop;
 use super::super::newton::several::{self, Besides, put};
 use super::{Conditions, FIRST_CELLS, Search, Single, Work, Workspace, asked_by};
-use crate::quadrature::panels;
 use crate::solution::{ContactState, Outcome, Start};
 use crate::{ContactError, Edge, Ends, Interval, Real, Side, SolveError};
 use std::ops::ControlFlow;
@@ -253,9 +252,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if let Some(side) = self.end {
             put(&mut newton.on, side, ends[side]);
         }
-        let Some(several) = panels::several_mut(*integrator) else {
-            return Ok(Err(Stop::Failed));
-        };
+        let Some(panels) = integrator.panels_mut() else { return Ok(Err(Stop::Failed)) };
+        let several = panels.several_mut();
         let besides = conditions.at().map(Besides::Tilt).or(self.end.map(Besides::Load));
         let load = conditions.load() / conditions.kappa;
         let sought = several::Conditions { gap: &contact.gap, load, ends, besides };
@@ -281,7 +279,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             conditions.edges[side] = Edge::Fixed(on[side]);
         }
         let Work { integrator, workspace, cost } = &mut *self.work;
-        let (look, bears, integrator) = (None, Some(None), &mut **integrator);
+        let (look, bears) = (None, Some(None));
         let mut single = Single { contact, conditions, start, look, integrator, cost, bears };
         let found = single.find(start)?;
         (workspace.newton.on[0], workspace.newton.tilt) = (found.interval, found.tilt);
