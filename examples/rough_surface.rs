@@ -77,9 +77,9 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 /// Chem. Phys.* 115, 2001, 3840).
 ///
 /// In complete contact a wave `a cos ωx` bears the pressure `E*/2 ω a cos ωx`, so that the pressure
-/// is Gaussian about its mean p, and its variance V is (E*/2)² times that of the slope. As waves are
-/// added one by one, its density spreads like heat, and what gets to zero loses contact: `∫₀ (G(s -
-/// p) - G(s + p)) ds = erf(p/√(2V))` is left.
+/// is Gaussian about its mean p, and its variance V is (E*/2)² times that of the slope. As waves
+/// are added one by one, its density spreads like heat, and what gets to zero loses contact: `∫₀
+/// (G(s - p) - G(s + p)) ds = erf(p/√(2V))` is left.
 fn persson(load: f64) -> f64 {
     erf(SQRT_2 * load)
 }

@@ -44,8 +44,8 @@ pub(crate) struct Work<'s, T: Real> {
 }
 
 impl<T: Real> Work<'_, T> {
-    /// Tells whether several contacts can be found. The user's own quadratures and searches, and the
-    /// paper's, find only one.
+    /// Tells whether several contacts can be found. The user's own quadratures and searches, and
+    /// the paper's, find only one.
     fn may_find_several(&self, contact: &Contact<'_, T>) -> bool {
         let by_newton = self.integrator.panels().is_some() && contact.search.is_none();
         by_newton && !contact.edges.are_adhesive()

@@ -68,8 +68,8 @@ impl<T: Real> Engine<T> {
         own.complete(gap)
     }
 
-    /// Returns the panels of the contacts last prepared. Without any, panels are sampled on the same
-    /// contact.
+    /// Returns the panels of the contacts last prepared. Without any, panels are sampled on the
+    /// same contact.
     ///
     /// # Errors
     /// Those of sampling the gap.
