@@ -251,9 +251,9 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Returns the scene with its bodies repeated, if they have a period.
-    pub(crate) fn repeated(&self) -> Result<Option<Box<Self>>, ContactError<T>> {
+    pub(crate) fn repeated(&self, cost: &mut Cost) -> Result<Option<Box<Self>>, ContactError<T>> {
         let Some(period) = self.beside.period else { return Ok(None) };
-        Ok(Some(Box::new(Self { gap: self.gap.repeated(period)?, ..self.clone() })))
+        Ok(Some(Box::new(Self { gap: self.gap.repeated(period, cost)?, ..self.clone() })))
     }
 
     /// Sets the conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].

@@ -129,13 +129,11 @@ impl<T: Real> Kernel<'_, T> {
         self.row.as_ref().filter(|_| is_alone).map(|row| row.period)
     }
 
-    /// Takes the distance of the next period for contacts in an interval of the range at hand, and
-    /// returns it.
-    pub fn in_range(&mut self, range: [T; 2], on: Interval<T>) -> T {
-        let Some(row) = &mut self.row else { return self.distance() };
+    /// Takes the distance of the next period for contacts in an interval of the range at hand.
+    pub fn in_range(&mut self, range: [T; 2], on: Interval<T>) {
+        let Some(row) = &mut self.row else { return };
         let distance = (on.left - range[0]).min(range[1] - on.right);
         (row.range, row.distance) = (range, distance.max(T::of(LEAST_DISTANCE) * row.period));
-        distance
     }
 
     /// Returns the compliance of the surfaces by wavenumber.

@@ -143,7 +143,7 @@ fn find_checked<'b, T: Real>(
 ) -> Result<Found<'b, T>, ContactError<T>> {
     (work.workspace.report, work.workspace.cell_work) = (Report::new(), 0);
     let kernel = bending::kernel(contact, control)?;
-    let repeated = contact.repeated()?;
+    let repeated = contact.repeated(work.cost)?;
     let contact = repeated.as_deref().unwrap_or(contact);
     let (mut found, bent) = match kernel {
         None => (find_under(contact, control, work)?, None),

@@ -8,8 +8,10 @@ use super::{Gap, Sampler, Shape};
 use crate::{Body, ContactError, Cost, InputError, Real};
 use std::sync::Arc;
 
-/// Number of places at which the first cut is sought.
+/// Number of places at which the first cut is sought; they lie as multiples of the golden ratio do,
+/// so that no wave has the same height at all of them.
 const PLACES: usize = 64;
+const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Number of parts of a gap at whose ends a cut is sought.
 const PLACES_IN_GAP: usize = 8;
@@ -22,9 +24,13 @@ const SAME: f64 = 1e-9;
 /// each of 64 waves.
 const SLOPES: usize = 1024;
 
+/// Steps of Newton's method to the lowest pressure of complete contact: from half a place they leave
+/// its rounding.
+const STEPS: usize = 4;
+
 impl<T: Real> Gap<'_, T> {
     /// Returns the gap of bodies that repeat with this period, cut where they are furthest apart.
-    pub(crate) fn repeated(&self, period: T) -> Result<Self, ContactError<T>> {
+    pub(crate) fn repeated(&self, period: T, cost: &mut Cost) -> Result<Self, ContactError<T>> {
         let start = self.start_of_period(period)?;
         let repeat = |body: Body| {
             let surface = &self.bodies[body as usize];
@@ -46,12 +52,17 @@ impl<T: Real> Gap<'_, T> {
         let new = Self { watch, resolution, convex: false, period: Some(period), ..new };
         let gap = new.cut_at(start);
         let mut sampler = Sampler::default();
-        let place = |i: usize| start + period * (T::count(i) / T::count(PLACES));
-        let heights = (0..PLACES).map(|i| sampler.height(&gap, place(i)));
-        let heights = heights.collect::<Result<Vec<T>, _>>()?;
-        self.check_ends(&heights, period)?;
-        let highest = (1..PLACES).fold(0, |i, j| if heights[j] > heights[i] { j } else { i });
-        Ok(gap.cut_at(place(highest)))
+        let mut samples = Vec::with_capacity(PLACES);
+        for i in 1..=PLACES {
+            let x = start + period * T::of((i as f64 * GOLDEN).fract());
+            samples.push([x, sampler.height(&gap, x)?, sampler.slope(&gap, x)?]);
+        }
+        cost.heights += sampler.cost.evaluations;
+        self.check_ends(&samples)?;
+        let higher = |one: [T; 3], other: [T; 3]| if other[1] > one[1] { other } else { one };
+        let [highest, ..] =
+            samples.into_iter().fold([start, -T::one() / T::zero(), T::zero()], higher);
+        Ok(gap.cut_at(highest))
     }
 
     /// Returns the left end of the period over which a body is described, after a check of the
@@ -79,14 +90,13 @@ impl<T: Real> Gap<'_, T> {
     }
 
     /// Checks that heights and slopes of each body are the same at both ends of a period, given
-    /// heights of the gap all over it.
-    fn check_ends(&self, heights: &[T], period: T) -> Result<(), ContactError<T>> {
+    /// places all over it with the height and the slope of the gap there.
+    fn check_ends(&self, samples: &[[T; 3]]) -> Result<(), ContactError<T>> {
         let zero = T::zero();
-        let sizes = heights.windows(2).fold([zero; 3], |[low, high, step], pair| {
-            let below = pair[1] - heights[0];
-            [low.min(below), high.max(below), step.max((pair[1] - pair[0]).abs())]
+        let [low, high, steepest] = samples.iter().fold([zero; 3], |[low, high, steepest], at| {
+            let above = at[1] - samples[0][1];
+            [low.min(above), high.max(above), steepest.max(at[2].abs())]
         });
-        let steepest = sizes[2] * T::count(PLACES) / period;
         for body in [Body::Lower, Body::Upper] {
             let surface = &self.bodies[body as usize];
             if surface.is_endless() {
@@ -95,10 +105,8 @@ impl<T: Real> Gap<'_, T> {
             let (first, last) = (surface.piece(0), surface.piece(surface.len() - 1));
             let of_heights = [first.ends[0].y, last.ends[1].y];
             let of_slopes = [first.end_slope(0, &mut 0), last.end_slope(1, &mut 0)];
-            let pairs = [
-                ("the height", of_heights, sizes[1] - sizes[0]),
-                ("the slope", of_slopes, steepest),
-            ];
+            let pairs =
+                [("the height", of_heights, high - low), ("the slope", of_slopes, steepest)];
             for (what, ends, size) in pairs {
                 let rounding = T::of(64.0) * T::epsilon() * (ends[0].abs() + ends[1].abs());
                 let is_same = (ends[1] - ends[0]).abs() <= tolerance::<T>() * size + rounding;
@@ -177,7 +185,7 @@ impl<T: Real> Gap<'_, T> {
         cost.heights += sampler.cost.evaluations;
         let turn = |i: usize| T::two_pi() * T::count(i % SLOPES) / T::count(SLOPES);
         let turns: Vec<[T; 2]> = (0..SLOPES).map(|i| [turn(i).cos(), turn(i).sin()]).collect();
-        let mut pressures = vec![T::zero(); SLOPES];
+        let (mut pressures, mut waves) = (vec![T::zero(); SLOPES], Vec::new());
         for n in 1..SLOPES / 2 {
             let share = T::of(2.0) / (T::count(SLOPES) * compliance(turn(1) * T::count(n) / step));
             let [a, b] = [0, 1].map(|which| {
@@ -188,8 +196,22 @@ impl<T: Real> Gap<'_, T> {
                 let [cos, sin] = turns[i * n % SLOPES];
                 *pressure += b * cos - a * sin;
             }
+            waves.push([turn(1) * T::count(n) / step, b, a]);
         }
-        let least = pressures.into_iter().fold(T::zero(), T::min);
+        let lowest = (1..SLOPES).fold(0, |i, j| if pressures[j] < pressures[i] { j } else { i });
+        let (mut least, mut x) = (pressures[lowest], step * T::count(lowest));
+        // Newton's method from the lowest of the places to the lowest between them.
+        for _ in 0..STEPS {
+            let [pressure, slope, bend] =
+                waves.iter().fold([T::zero(); 3], |sums, &[omega, b, a]| {
+                    let (sin, cos) = (omega * x).sin_cos();
+                    let (value, slope) = (b * cos - a * sin, -(b * sin + a * cos) * omega);
+                    [sums[0] + value, sums[1] + slope, sums[2] - omega * omega * value]
+                });
+            least = least.min(pressure);
+            let by = slope / bend;
+            x -= if by.abs() < step { by } else { T::zero() };
+        }
         Ok(-kappa * T::frac_1_pi() * period * least)
     }
 }

@@ -354,6 +354,13 @@ fn what_is_not_possible_is_refused() {
         };
         assert!((complete / (0.02 * PI) - 1.0).abs() < 1e-12, "{complete}");
     }
+    // As many waves as places are looked at, described from a crest.
+    let fine = waves(0.0, &[[0.02, 64.0, 0.0]]);
+    let fault = error(row(&fine), Control::Load(1e3));
+    let ContactError::Solve(SolveError::CompleteContact { complete, .. }) = fault else {
+        panic!("{fault}")
+    };
+    assert!((complete / (64.0 * 0.02 * PI) - 1.0).abs() < 1e-9, "{complete}");
     for control in [Control::HalfWidth(0.65), Control::PeakPressure(0.2)] {
         let fault = error(row(&crest), control);
         let is_typed = matches!(
