@@ -24,8 +24,8 @@ const SAME: f64 = 1e-9;
 /// each of 64 waves.
 const SLOPES: usize = 1024;
 
-/// Steps of Newton's method to the lowest pressure of complete contact: from half a place they leave
-/// its rounding.
+/// Steps of Newton's method to the lowest pressure of complete contact: from half a place they
+/// leave its rounding.
 const STEPS: usize = 4;
 
 impl<T: Real> Gap<'_, T> {
