@@ -53,7 +53,9 @@ impl<T: Real> Gap<'_, T> {
         let gap = new.cut_at(start);
         let mut sampler = Sampler::default();
         let mut samples = Vec::with_capacity(PLACES);
-        for i in 1..=PLACES {
+        // The end of the description is the first: where it is the highest place, results are in x
+        // as described.
+        for i in 0..PLACES {
             let x = start + period * T::of((i as f64 * GOLDEN).fract());
             samples.push([x, sampler.height(&gap, x)?, sampler.slope(&gap, x)?]);
         }
