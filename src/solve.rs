@@ -33,7 +33,11 @@ use by_load::{ByApproach, HalfWidth, Peak};
 use edges::{Conditions, Given};
 use equations::Equations;
 use std::sync::Arc;
+use topology::Search;
 pub(crate) use topology::Workspace;
+
+/// Sets of contacts tried before the search is given up.
+const MAX_TRIALS: usize = 14;
 
 /// Means of a search: the integrals, the state kept from one solve to the next, and the cost so
 /// far.
@@ -212,6 +216,25 @@ fn find_under<T: Real>(
             moment::find(contact, moment::LineOfLoad::through(load, at)?, work)
         }
     }
+}
+
+/// Finds the contacts that meet some conditions: limits in equilibrium, a check, and another set of
+/// contacts at its fault, until there is none.
+fn settle<T: Real>(search: &mut Search<'_, '_, '_, T>) -> Result<ContactState<T>, ContactError<T>> {
+    let mut start = search.first()?;
+    for _ in 0..MAX_TRIALS {
+        let mut tried = search.equilibrium(start);
+        if let Ok(Ok(found)) = tried {
+            tried = search.check(found);
+        }
+        let next = match search.enter(start, tried) {
+            Ok(Ok(found)) => return Ok(found),
+            Ok(Err(fault)) => search.revise(fault, start),
+            Err(error) => Err(error),
+        };
+        start = next.or_else(|error| search.start_anew(error))?;
+    }
+    Err(search.not_found())
 }
 
 /// Tells whether a half-width may belong to several contacts, by the error of the search for one.

@@ -14,7 +14,7 @@ mod pull;
 mod start;
 
 use super::Contact;
-use super::capacity::{Capacity, capacity};
+use super::capacity::capacity;
 use super::edges::{Conditions, Given};
 use super::equations::{Equations, relative_error};
 use super::newton::Stop;
@@ -22,9 +22,9 @@ use super::newton::linearised::load_of;
 use super::newton::single::{Converged, Effort, NewtonSingle, Verdict};
 use super::one_by_one;
 use crate::gap::{Cost, Survey};
-use crate::quadrature::{Engine, Integrator, Moments};
+use crate::quadrature::{Engine, Moments};
 use crate::solution::ContactState;
-use crate::{ContactError, Edge, InputError, Interval, ProfileError, Real, Side, SolveError};
+use crate::{ContactError, InputError, Interval, ProfileError, Real, SolveError};
 
 /// Largest uncertainty of a contact, as a share of the half-width, to count as found.
 pub(super) const MAX_DOUBT: f64 = 0.03;
@@ -50,9 +50,9 @@ pub(super) struct Single<'s, 'b, T: Real> {
     pub look: Option<&'s Survey<T>>,
     pub integrator: &'s mut Engine<T>,
     pub cost: &'s mut Cost,
-    /// Capacity of the bodies, once computed. The inner `None`: unknown, as for one of several
-    /// contacts, since bodies that touch in several places bear more than one.
-    pub bears: Option<Option<Capacity<T>>>,
+    /// Flag: the only contact. Otherwise it may be one of several: bodies that touch in several
+    /// places bear more than one contact does, and another start belongs to another contact.
+    pub is_alone: bool,
 }
 
 /// Start of another search after one that has found no contact.
@@ -65,81 +65,17 @@ enum Elsewhere {
     Leaning,
 }
 
-/// Returns the distance of a limit beyond a corner on its side.
-fn beyond<T: Real>(on: Interval<T>, side: Side, corner: T) -> T {
-    match side {
-        Side::Left => corner - on.left,
-        Side::Right => on.right - corner,
-    }
-}
-
 impl<T: Real> Single<'_, '_, T> {
-    /// Finds the contact, first around the last one.
+    /// Finds the contact with edges that are each either fixed or not, first around the last one.
     pub fn find(&mut self, last: Option<Interval<T>>) -> Result<ContactState<T>, ContactError<T>> {
-        let corners = self.conditions.edges;
-        // A corner holds the contact as long as it presses there; a given width may fit without the
-        // corner, unless it held the last contact. A given width cannot be held at both corners.
-        let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
-        let mut one_held = false;
-        for side in Side::BOTH {
-            let edge = &mut self.conditions.edges[side];
-            if let Edge::FreeUntil(x) = *edge {
-                let touched = last.map(|on| on[side] == x);
-                let held = touched.unwrap_or(by_load) && (by_load || !one_held);
-                one_held |= held;
-                *edge = if held { Edge::Fixed(x) } else { Edge::Free };
-            }
-        }
-        let mut found = match self.between_edges(last) {
-            Err(error) if self.conditions.edges != corners => {
-                // A corner that is far off may not be reached at all.
-                let let_go =
-                    |edge| if matches!(edge, Edge::FreeUntil(_)) { Edge::Free } else { edge };
-                self.conditions.edges = corners.map(let_go);
-                self.between_edges(last).map_err(|_| error)?
-            }
-            found => found?,
-        };
-        for _ in 0..4 {
-            let on = found.interval;
-            let mut changed = false;
-            for side in Side::BOTH {
-                let Edge::FreeUntil(x) = corners[side] else { continue };
-                let edge = &mut self.conditions.edges[side];
-                if edge.is_free() && beyond(on, side, x) > T::zero() {
-                    (*edge, changed) = (Edge::Fixed(x), true);
-                } else if !edge.is_free() && found.strengths[side] < T::zero() {
-                    (*edge, changed) = (Edge::Free, true);
-                }
-            }
-            if !changed {
-                break;
-            }
-            found = self.between_edges(Some(on))?;
-        }
-        let on = found.interval;
-        for side in Side::BOTH {
-            let Edge::FreeUntil(x) = corners[side] else { continue };
-            // The contact is neither held by the corner nor within it.
-            if beyond(on, side, x) > T::of(8.0) * T::epsilon() * (x.abs() + on.half_width()) {
-                let half_width = on.half_width();
-                return Err(SolveError::NoEquilibrium { half_width, near: x }.into());
-            }
-        }
-        // The bodies were turned before the search.
-        found.tilt += self.contact.gap.tilt();
-        Ok(found)
-    }
-
-    /// Finds the contact with edges that are each either fixed or not.
-    fn between_edges(
-        &mut self,
-        last: Option<Interval<T>>,
-    ) -> Result<ContactState<T>, ContactError<T>> {
         let Conditions { edges, given, .. } = self.conditions;
         let pulled = matches!(given, Given::Load(load) if load <= T::zero());
         let adhesive = edges.are_adhesive();
-        if pulled && adhesive && edges.are_sought() { self.pull(last) } else { self.press(last) }
+        let is_pulled = pulled && adhesive && edges.are_sought();
+        let mut found = if is_pulled { self.pull(last) } else { self.press(last) }?;
+        // The bodies were turned before the search.
+        found.tilt += self.contact.gap.tilt();
+        Ok(found)
     }
 
     /// Finds the contact under a load that presses, with edges that are each either fixed or not.
@@ -155,16 +91,15 @@ impl<T: Real> Single<'_, '_, T> {
         if !turns && (self.contact.search.is_some() || self.integrator.panels().is_none()) {
             return self.by_nested_search().map_err(|error| self.because(error));
         }
-        let is_one_of_several = matches!(self.bears, Some(None));
         if let Some(converged) = self.by_newton(last).map_err(|error| self.because(error))? {
             return self.contact_of(converged);
         }
-        self.check()?;
+        self.may_bear()?;
         let half_width = match self.conditions.given {
             Given::HalfWidth(half_width) => half_width,
             _ => self.start().half_width(),
         };
-        if is_one_of_several {
+        if !self.is_alone {
             let near = self.start().centre();
             return Err(SolveError::NoEquilibrium { half_width, near }.into());
         }
@@ -230,20 +165,17 @@ impl<T: Real> Single<'_, '_, T> {
         from: Interval<T>,
         effort: Effort,
     ) -> Result<Verdict<T>, ContactError<T>> {
-        let most_at_end = match (effort, self.bears) {
-            (Effort::Guess, _) => MAX_AT_END[0],
-            (Effort::Full, Some(Some(_))) => usize::MAX,
-            (Effort::Full, _) => MAX_AT_END[1],
-        };
-        let (gap, conditions) = (&self.contact.gap, self.conditions);
-        let find = |integrator: &mut dyn Integrator<T>, most_at_end| {
-            let conditions = &conditions;
-            NewtonSingle { integrator, gap, conditions, effort, most_at_end }.converge(from)
-        };
-        let verdict = find(&mut **self.integrator, most_at_end)?;
+        let (integrator, gap, conditions) =
+            (&mut **self.integrator, &self.contact.gap, &self.conditions);
+        let most_at_end = MAX_AT_END[usize::from(effort == Effort::Full)];
+        let mut newton = NewtonSingle { integrator, gap, conditions, effort, most_at_end };
+        let verdict = newton.converge(from)?;
         let is_at_end = matches!(verdict, Err(Stop::Beyond { .. }));
         if effort == Effort::Full && is_at_end && self.may_bear()? {
-            return find(&mut **self.integrator, usize::MAX);
+            let (integrator, conditions) = (&mut **self.integrator, &self.conditions);
+            let most_at_end = usize::MAX;
+            return NewtonSingle { integrator, gap, conditions, effort, most_at_end }
+                .converge(from);
         }
         Ok(verdict)
     }
@@ -266,7 +198,7 @@ impl<T: Real> Single<'_, '_, T> {
         };
         let error = nested.error;
         if error > T::of(MAX_DOUBT) {
-            self.check()?;
+            self.may_bear()?;
         }
         Ok(ContactState::new(&conditions, on, load, Some(error), &m))
     }
@@ -355,31 +287,23 @@ impl<T: Real> Single<'_, '_, T> {
         Ok(best)
     }
 
-    /// Tells whether the bodies bear the load or width; false if their capacity is unknown. Fails
-    /// if it is exceeded.
+    /// Tells whether the bodies bear the load or width; false if that is unknown. Fails if it is too
+    /// large.
     fn may_bear(&mut self) -> Result<bool, ContactError<T>> {
-        self.check()?;
-        Ok(!matches!(self.bears, Some(None)))
-    }
-
-    /// Refuses a load or a width beyond the capacity of the bodies.
-    fn check(&mut self) -> Result<(), ContactError<T>> {
-        let Self { contact, conditions, cost, .. } = self;
-        // Bodies that turn bear another load.
-        if matches!(conditions.given, Given::Centre { .. }) {
-            return Ok(());
+        // One of several contacts bears part of the load, and bodies that turn another one.
+        if !self.is_alone || self.conditions.at().is_some() {
+            return Ok(self.is_alone);
         }
-        let range = contact.gap.range();
-        let bears = self.bears.get_or_insert_with(|| {
-            capacity(contact, conditions, range.into(), cost).map(|(_, bears)| bears)
-        });
+        let Self { contact, conditions, cost, .. } = self;
+        let ends = contact.gap.range().into();
+        let Some((_, bears)) = capacity(contact, conditions, ends, cost) else { return Ok(false) };
         let room = T::one() + T::of(8.0) * T::epsilon();
-        match (conditions.given, bears) {
-            (Given::Load(load), Some(bears)) if load > bears.load => Err(bears.too_short(load)),
-            (Given::HalfWidth(wanted), Some(bears)) if wanted > bears.half_width * room => {
+        match conditions.given {
+            Given::Load(load) if load > bears.load => Err(bears.too_short(load)),
+            Given::HalfWidth(wanted) if wanted > bears.half_width * room => {
                 Err(bears.too_wide(wanted))
             }
-            _ => Ok(()),
+            _ => Ok(true),
         }
     }
 
@@ -392,7 +316,7 @@ impl<T: Real> Single<'_, '_, T> {
                 // Occurs at an end of the bodies.
                 source: ProfileError::NotFinite { .. },
                 ..
-            }) => self.check().err().unwrap_or(error),
+            }) => self.may_bear().err().unwrap_or(error),
             _ => error,
         }
     }

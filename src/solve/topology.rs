@@ -1,13 +1,12 @@
-//! Intervals in which the bodies touch: start, converge, check, revise.
+//! Intervals in which the bodies touch: the set of contacts at hand, and how its limits are found.
 //!
-//! A contact is first sought as one interval, around the last one or at the lowest gap; if the gap
-//! has several valleys, several contacts are sought at once. A solution is [checked](check):
-//! corners press, no tension inside, no overlap outside. A failed search or check [revises](revise)
-//! the set of contacts, from which [all limits](super::newton::several) are sought anew; if it says
-//! too little, a coarse [active set](super::active_set) locates the contacts roughly. A search that
-//! leads to an end of the bodies computes the load that they [bear](bears). Without adhesion a
-//! contact problem has one solution: a set that passes the checks is this solution, however it was
-//! found.
+//! The loop over sets of contacts is [`settle`](super::settle). It begins with one contact, around
+//! the last one or at the lowest gap, or with several if the gap has several valleys. A set is moved
+//! until it is in equilibrium ([one contact](super::single_contact), [all
+//! limits](super::newton::several) at once), with limits [held at corners](corners); it is
+//! [checked](check); and its fault says which set is [next](revise). If a search leads to an end of
+//! the bodies, the load that they [bear](bears) is sought. Without adhesion a contact problem has
+//! one solution: a set that passes the checks is this solution, however it was found.
 
 mod bears;
 mod check;
@@ -17,16 +16,19 @@ mod workspace;
 
 use super::active_set::FIRST_CELLS;
 use super::edges::{Conditions, Given};
+use super::newton::Stop;
+use super::newton::several::{self, Besides, put};
 use super::signorini_check::step_of_heights;
 use super::single_contact::Single;
-use super::{Contact, Work};
+use super::{Contact, Work, settle};
 use crate::gap::{Asked, Survey};
-use crate::solution::{ContactState, Outcome, Start};
+use crate::solution::{ContactState, Start};
 use crate::{ContactError, Interval, Real, Side, SolveError};
 pub(super) use bears::{Borne, bears, up_to_corner};
+pub(super) use revise::Fault;
 pub(crate) use workspace::Workspace;
 
-/// Finds the contacts of two bodies.
+/// Finds the contacts of two bodies, or the load that they bear.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     conditions: Conditions<T>,
@@ -34,7 +36,8 @@ pub(super) fn find<T: Real>(
 ) -> Result<ContactState<T>, ContactError<T>> {
     contact.checked_edges()?;
     work.workspace.look_for_features(&contact.gap);
-    let found = Search::new(contact, conditions, work).find();
+    let mut search = Search::new(contact, conditions, work);
+    let found = settle(&mut search).or_else(|error| search.explain(error));
     found.map_err(|error| match error {
         // A step of the heights that no slope shows is not a crest that could be pressed flat.
         ContactError::Solve(SolveError::Overlap { x, interval, .. }) => {
@@ -44,27 +47,36 @@ pub(super) fn find<T: Real>(
     })
 }
 
-/// Contact found, or the reason why not.
-type Found<T> = Result<ContactState<T>, ContactError<T>>;
+/// Contacts in equilibrium, or the fault by which the set is not the solution.
+pub(super) type Tried<T> = Result<Result<ContactState<T>, Fault<T>>, ContactError<T>>;
 
 /// Search for the contacts.
-struct Search<'s, 'w, 'b, T: Real> {
+pub(super) struct Search<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
     conditions: Conditions<T>,
     work: &'s mut Work<'w, T>,
+    /// Flags: one contact is sought, from a start, instead of the set at hand; it may start from
+    /// the survey.
+    is_of_one: bool,
+    looks: bool,
+    /// Flag: several contacts are sought first, as the gap has several valleys; one may be left.
+    has_valleys: bool,
     /// Number of samples of the gap before the search.
     samples: usize,
     /// Number of cells of the next active set.
     cells: usize,
-    /// Corners that hold limits, each with the side of its contact.
-    held: Vec<(T, Side)>,
+    /// Set before the last revision of one.
+    earlier: Vec<Interval<T>>,
     /// Places where gaps have closed.
     closed: Vec<Interval<T>>,
     /// Single contacts in which a feature was lost to the panels.
     lost: Vec<Interval<T>>,
+    /// Errors of the search for one contact, and of the last set.
+    of_one: Option<ContactError<T>>,
+    error: Option<ContactError<T>>,
     /// End of the bodies that contacts reach with no corner to hold them.
     runs_out: Option<Side>,
-    /// True if the load that the bodies bear has been sought.
+    /// Flag: more cells were tried since.
     has_run_out: bool,
     /// End of the bodies that the contacts are to reach, if the load for it is sought.
     end: Option<Side>,
@@ -76,142 +88,158 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         conditions: Conditions<T>,
         work: &'s mut Work<'w, T>,
     ) -> Self {
-        let (cells, has_run_out, [closed, lost]) = (FIRST_CELLS, false, [Vec::new(), Vec::new()]);
-        let held = Vec::new();
-        let (runs_out, end, samples) = (None, None, work.integrator.cost().samples);
+        let samples = work.integrator.cost().samples;
+        let [earlier, closed, lost] = [Vec::new(), Vec::new(), Vec::new()];
         Self {
             contact,
             conditions,
             work,
+            is_of_one: false,
+            looks: false,
+            has_valleys: false,
             samples,
-            cells,
-            held,
+            cells: FIRST_CELLS,
+            earlier,
             closed,
             lost,
-            runs_out,
-            has_run_out,
-            end,
+            of_one: None,
+            error: None,
+            runs_out: None,
+            has_run_out: false,
+            end: None,
         }
     }
 
-    fn find(&mut self) -> Result<ContactState<T>, ContactError<T>> {
+    /// Returns the first start.
+    pub(super) fn first(&mut self) -> Result<Start, ContactError<T>> {
         if self.contact.single_interval {
-            let start = self.start_of_one(false);
-            let found = self.one(start, false);
-            let attempt = found.map(|found| (Outcome::Unchecked, found));
-            return self.work.workspace.report.end(start, attempt);
+            return Ok(self.start_of_one());
         }
-        if self.work.workspace.last.len() > 1 {
-            return self.several(None);
+        if self.work.workspace.last.len() > 1 || self.end.is_some() {
+            return self.start_of_several();
         }
+        let start = self.start_of_one();
         // If the gap has several valleys, heights show at less cost why a search for one contact
         // fails.
-        let (start, has_valleys) = (self.start_of_one(true), self.has_valleys());
+        let has_valleys = self.has_valleys();
         // The survey is the beginning of an attempt.
-        if has_valleys.or_else(|error| self.work.workspace.report.end(start, Err(error)))? {
-            match self.several(None) {
-                Err(error)
-                    if !matches!(error, ContactError::Solve(SolveError::DomainTooShort { .. })) => {
-                }
-                found => return found,
-            }
-        }
-        match self.one_checked()? {
-            Ok(found) => Ok(found),
-            Err(fault) => self.several(Some(fault)),
-        }
+        self.has_valleys =
+            has_valleys.or_else(|error| self.work.workspace.report.end(start, Err(error)))?;
+        if self.has_valleys { self.start_of_several() } else { Ok(start) }
     }
 
-    /// Seeks one contact and checks it. The inner error is one that several contacts may avoid.
-    fn one_checked(&mut self) -> Result<Found<T>, ContactError<T>> {
-        let (turns, is_said) = (self.turns(), self.contact.gap.is_convex());
-        let looks = !is_said && !turns && self.contact.edges.are_sought();
-        let mut found = self.attempt_one(looks)?;
-        // The first search had no survey of the bodies.
-        if is_said
-            && !turns
-            && matches!(found, Err(ContactError::Solve(SolveError::NoEquilibrium { .. })))
-        {
-            found = self.attempt_one(true)?;
+    /// Returns the start of a search for one contact after one for several that has failed without
+    /// it, or the error.
+    pub(super) fn start_anew(&mut self, error: ContactError<T>) -> Result<Start, ContactError<T>> {
+        let is_known = matches!(error, ContactError::Solve(SolveError::DomainTooShort { .. }));
+        if !std::mem::take(&mut self.has_valleys) || is_known {
+            return Err(error);
         }
-        match found {
-            Err(error) if self.is_of_any_number(&error)? => Err(error),
-            found => Ok(found),
-        }
-    }
-
-    /// Makes an attempt with one contact; the inner error is that of the search, or a fault of the
-    /// contact found.
-    fn attempt_one(&mut self, looks: bool) -> Result<Found<T>, ContactError<T>> {
-        let start = self.start_of_one(looks);
-        let attempt = match self.one(start, looks) {
-            Ok(found) => self.checked(&found).map(|fault| fault.map_or(Ok(found), Err)),
-            Err(error) => Ok(Err(error)),
-        };
-        let outcome =
-            |found: &Found<T>| found.as_ref().map_or_else(Outcome::of, |_| Outcome::Passed);
-        let attempt = attempt.map(|found| (outcome(&found), found));
-        self.work.workspace.report.end(start, attempt)
-    }
-
-    /// Tells whether a search for several contacts would fail with the error of this search for
-    /// one.
-    fn is_of_any_number(&mut self, error: &ContactError<T>) -> Result<bool, ContactError<T>> {
-        match error {
-            ContactError::Solve(SolveError::Tension { .. } | SolveError::Overlap { .. }) => {
-                return Ok(false);
-            }
-            // If the bodies turn, more contacts may press at the corner.
-            ContactError::Solve(SolveError::LiftsOff { .. }) => {
-                return Ok(self.is_convex() || !self.turns());
-            }
-            _ => {}
-        }
-        if !self.contact.edges.are_sought() || !error.may_be_several() {
-            return Ok(true);
-        }
-        let is_shut = matches!(error, ContactError::Solve(SolveError::NoFirstContact { .. }));
-        if is_shut && self.end_touched_first().is_some() {
-            return Ok(true);
-        }
-        // If the bodies turn, one contact may be hard to find, too; likewise at corners, and among
-        // waves not yet seen.
-        let is_lost = matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }));
-        let is_convex = self.is_convex() && !self.corrects_survey()? && !self.has_corners()?;
-        Ok(!self.turns() && (is_convex || !is_lost && self.look()?.bulges()))
+        Ok(self.start_of_one())
     }
 
     /// Returns the start of a search for one contact: the last contact, the user's start, or the
     /// lowest gap; without a survey, the line of the load or the middle of the bodies.
-    fn start_of_one(&self, looks: bool) -> Start {
-        match (self.work.workspace.last.first(), self.contact.start) {
+    fn start_of_one(&self) -> Start {
+        let Contact { gap, start, edges, single_interval, .. } = self.contact;
+        match (self.work.workspace.last.first(), start) {
             (Some(_), _) => Start::Last,
             (_, Some(_)) => Start::Given,
-            _ if looks => Start::LowestGap,
             _ if self.turns() => Start::LineOfLoad,
-            _ => Start::Middle,
+            _ if *single_interval || gap.is_convex() || !edges.are_sought() => Start::Middle,
+            _ => Start::LowestGap,
         }
     }
 
-    /// Seeks one contact, and repeats as long as its panels miss narrow features.
-    fn one(&mut self, start: Start, looks: bool) -> Result<ContactState<T>, ContactError<T>> {
+    /// Returns the start of a search for any number of contacts.
+    fn start_of_several(&mut self) -> Result<Start, ContactError<T>> {
+        if !self.may_be_several() {
+            return Err(self.error.take().or(self.of_one.take()).unwrap_or(self.no_balance()));
+        }
+        let Workspace { last, newton, .. } = &mut *self.work.workspace;
+        let change = self.conditions.load() / self.conditions.kappa / newton.load - T::one();
+        if self.end.is_none() && T::count(last.len()) * change * change > T::of(MAX_CHANGE) {
+            last.clear();
+        }
+        newton.on.clone_from(last);
+        let is_near = last.len() > 1 || self.end.is_some() && !last.is_empty();
+        Ok(if is_near { Start::Last } else { Start::ActiveSet })
+    }
+
+    /// Moves the contacts from a start until they are in equilibrium.
+    pub(super) fn equilibrium(&mut self, start: Start) -> Tried<T> {
+        let ([left, right], turns) = (self.contact.gap.range(), self.turns());
+        let Workspace { last, newton, .. } = &mut *self.work.workspace;
+        self.is_of_one = match start {
+            Start::Attempt | Start::ActiveSet => false,
+            Start::Last => self.contact.single_interval || last.len() == 1 && self.end.is_none(),
+            _ => true,
+        };
+        self.looks = self.is_of_one && start != Start::Middle && !turns;
+        if self.is_of_one {
+            newton.on.clear();
+            newton.on.extend(last.first().filter(|_| start == Start::Last));
+        } else {
+            self.contact.gap.check_watch(*self.work.cost, Interval { left, right })?;
+        }
         if start == Start::LowestGap {
             self.look()?;
         }
-        let mut found = self.one_from(self.work.workspace.last.first().copied(), looks)?;
-        while self.misses(&found)? {
-            found = self.one_from(Some(found.interval), looks)?;
+        if start == Start::ActiveSet {
+            self.take_cells()?;
         }
-        Ok(found)
+        match self.converge() {
+            Ok(Ok(found)) => Ok(Ok(found)),
+            Ok(Err(stop)) => Ok(Err(self.fault_of(stop))),
+            Err(error) if self.is_of_one || error.may_be_several() => {
+                Ok(Err(Fault::Stuck(Some(error))))
+            }
+            Err(error) => Err(error),
+        }
     }
 
-    /// Seeks one contact around the last one, if any; without it, from the survey if `looks` is
-    /// set.
-    fn one_from(&mut self, last: Option<Interval<T>>, looks: bool) -> Found<T> {
-        let (contact, Work { integrator, workspace, cost }) = (self.contact, &mut *self.work);
+    /// Moves the contacts at hand once, with some limits held.
+    fn converge_once(&mut self) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
+        if self.work.workspace.newton.on.len() <= 1 && self.end.is_none() {
+            return self.one().map(Ok);
+        }
+        let (contact, conditions, ends) = (self.contact, self.conditions, self.contact.ends());
+        let Work { integrator, workspace, .. } = &mut *self.work;
+        let newton = &mut workspace.newton;
+        if let Some(side) = self.end {
+            put(&mut newton.on, side, ends[side]);
+        }
+        let Some(panels) = integrator.panels_mut() else { return Ok(Err(Stop::Failed)) };
+        let several = panels.several_mut();
+        let besides = conditions.at().map(Besides::Tilt).or(self.end.map(Besides::Load));
+        let load = conditions.load() / conditions.kappa;
+        let sought = several::Conditions { gap: &contact.gap, load, ends, besides };
+        if let Err(stop) = newton.converge(several, &sought)? {
+            return Ok(Err(stop));
+        }
+        let load = match self.end {
+            Some(_) => newton.load * conditions.kappa,
+            None => conditions.load(),
+        };
+        Ok(Ok(newton.found(several, conditions.kappa, load, &sought)))
+    }
+
+    /// Moves the only contact of a set, or one whose place is not yet known.
+    fn one(&mut self) -> Result<ContactState<T>, ContactError<T>> {
+        let (contact, mut conditions) = (self.contact, self.conditions);
+        let (is_alone, looks) = (self.is_of_one, self.looks);
+        conditions.edges = self.edges_of_one();
+        let Work { integrator, workspace, cost } = &mut *self.work;
+        let last = workspace.newton.on.first().copied();
+        let start = if is_alone { contact.start } else { last };
         let look = workspace.survey_of(&contact.gap).filter(|_| looks);
-        let (conditions, start, bears) = (self.conditions, contact.start, None);
-        Single { contact, conditions, start, look, integrator, cost, bears }.find(last)
+        let found =
+            Single { contact, conditions, start, look, integrator, cost, is_alone }.find(last)?;
+        let newton = &mut workspace.newton;
+        newton.on.clear();
+        newton.on.push(found.interval);
+        newton.tilt = found.tilt;
+        Ok(found)
     }
 
     /// Tells whether the gap has several valleys, and no other start is known.
@@ -247,6 +275,11 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         by_load && self.work.may_find_several(self.contact)
     }
 }
+
+/// Square of the relative change of the load, times the number of contacts, up to which the last
+/// contacts are the start: beyond, contacts that are born and vanish take more attempts than it
+/// saves (measured with 2 to 300 contacts).
+const MAX_CHANGE: f64 = 0.5;
 
 /// Returns the request to the survey for these conditions.
 fn asked_by<T: Real>(conditions: &Conditions<T>) -> Asked<T> {

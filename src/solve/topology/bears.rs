@@ -10,10 +10,10 @@
 use super::super::active_set::FIRST_CELLS;
 use super::super::capacity::Capacity;
 use super::super::edges::Conditions;
-use super::{Contact, Search, Work};
+use super::{Contact, Search, Work, settle};
 use crate::quadrature::LoadCase;
 use crate::solution::{ContactState, Solved, largest_pressure};
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Edge, Ends, Interval, Real, Side};
 
 /// Ratio of the loads that enclose the one under which cells reach an end of the bodies.
 const BRACKET_RATIO: f64 = 1.25;
@@ -69,20 +69,22 @@ pub(in super::super) fn up_to_corner<T: Real>(
 }
 
 impl<T: Real> Search<'_, '_, '_, T> {
-    /// Returns the contacts under a load that the bodies bear, if known. Fails if the load is too
-    /// large.
-    pub(super) fn borne(
+    /// Returns the contacts after all, or a better error, if the search has led to an end of the
+    /// bodies.
+    pub(super) fn explain(
         &mut self,
-        conditions: &Conditions<T>,
-    ) -> Result<Option<ContactState<T>>, ContactError<T>> {
+        error: ContactError<T>,
+    ) -> Result<ContactState<T>, ContactError<T>> {
         // Bodies that turn bear another load.
-        if self.end.is_some() || self.turns() {
-            return Ok(None);
+        if self.runs_out.is_none() || self.end.is_some() || self.turns() {
+            return Err(error);
         }
-        match self.bears(conditions) {
+        let edges = self.conditions.edges.map(Edge::let_go);
+        let conditions = Conditions { edges, ..self.conditions };
+        match self.bears(&conditions) {
             Some(Borne::UpTo(widest)) => Err(widest.too_short(conditions.load())),
-            Some(Borne::All(found)) => Ok(Some(found)),
-            None => Ok(None),
+            Some(Borne::All(found)) => Ok(found),
+            None => Err(error),
         }
     }
 
@@ -155,7 +157,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         let mut search = Search::new(self.contact, *conditions, &mut *self.work);
         search.end = Some(end);
-        let found = search.several(None).ok()?;
+        let found = settle(&mut search).ok()?;
         let (on, room) = (found.interval, self.room(found.interval));
         let side = if room.right < room.left { Side::Right } else { Side::Left };
         // A single contact as wide as the widest balanced one may be a different one.
@@ -210,9 +212,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// corner.
     fn gaps_at_ends(&mut self, conditions: &Conditions<T>) -> Option<(ContactState<T>, Ends<T>)> {
         let mut search = Search::new(self.contact, *conditions, &mut *self.work);
-        // The search must not ask again for the load that the bodies bear.
-        search.has_run_out = true;
-        let found = search.find().ok()?;
+        let found = settle(&mut search).ok()?;
         let (gap, ends, at_corner) =
             (&self.contact.gap.tilted(found.tilt), self.contact.ends(), self.corners());
         self.work.keep(gap, found.interval).ok()?;

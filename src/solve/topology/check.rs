@@ -1,7 +1,7 @@
 //! Check of a solution: narrow features, corners, tension inside and overlap outside.
 
 use super::super::signorini_check::{SignoriniCheck, Under};
-use super::{Search, Work, Workspace, asked_by};
+use super::{Fault, Search, Tried, Work, Workspace, asked_by};
 use crate::gap::Gap;
 use crate::quadrature::Integrator;
 use crate::solution::ContactState;
@@ -35,8 +35,26 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(true)
     }
 
+    /// Checks a solution, unless that is not asked for.
+    pub(in super::super) fn check(&mut self, found: ContactState<T>) -> Tried<T> {
+        if self.contact.single_interval {
+            return Ok(Ok(found));
+        }
+        match self.checked(&found)? {
+            None => Ok(Ok(found)),
+            Some(error @ ContactError::Solve(SolveError::Tension { .. })) => {
+                Ok(Err(Fault::Tension(error)))
+            }
+            Some(error @ ContactError::Solve(SolveError::Overlap { .. })) => {
+                Ok(Err(Fault::Overlap(error)))
+            }
+            Some(error) if self.is_of_one => Ok(Err(Fault::Stuck(Some(error)))),
+            Some(error) => Err(error),
+        }
+    }
+
     /// Returns the fault of a solution, if it has any.
-    pub(super) fn checked(
+    fn checked(
         &mut self,
         found: &ContactState<T>,
     ) -> Result<Option<ContactError<T>>, ContactError<T>> {

@@ -7,7 +7,8 @@
 //!
 //! | limit | next |
 //! |---|---|
-//! | free, next to a corner | held there |
+//! | free, next to a corner, or beyond one at an end | held there |
+//! | held, and nothing found | let go, where it was |
 //! | held, K < 0 | let go inward, the lowest first |
 //! | held, K > 0, inside the bodies | put beyond the corner by d, the furthest first |
 //! | held, K > 0, d/L less than the rounding of x over d | held: d is the error of the limit |
@@ -21,11 +22,11 @@
 
 use super::super::newton::Stop;
 use super::super::newton::several::{NewtonSeveral, put};
-use super::{Conditions, Given, Search, Workspace};
+use super::{Given, Search, Workspace};
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::solution::ContactState;
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{ContactError, Edge, Ends, Interval, Real, Side};
 
 /// Largest distance of a limit from a corner that may hold it, as a share of the half-width: that
 /// of limits by cells.
@@ -43,6 +44,9 @@ const STEP_INWARD: f64 = 0.01;
 
 /// Least ratio of distances d that are let go together.
 const TOGETHER: f64 = 0.01;
+
+/// Largest number of times that the limits of a set are sought, held or let go.
+const MAX_ROUNDS: usize = 200;
 
 /// Doublings of √d from its least value, and halvings of its logarithm after them: a start.
 const MAX_DOUBLINGS: usize = 40;
@@ -67,40 +71,77 @@ struct Held<T> {
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Moves the contacts at hand until they bear the load, held at corners or let go; repeats as
     /// long as their panels miss narrow features.
-    pub(super) fn converge(
-        &mut self,
-        conditions: &Conditions<T>,
-    ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
+    pub(super) fn converge(&mut self) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
         let workspace = &mut *self.work.workspace;
         workspace.before.clone_from(&workspace.newton.on);
-        self.hold(conditions)?;
-        loop {
-            let mut found = match self.converge_once(conditions)? {
-                Ok(found) => found,
-                // With limits held the contact is wider, and may need more than the bodies have.
-                Err(Stop::Beyond { .. }) if self.lets_all_go() => continue,
-                stopped => return Ok(stopped),
+        self.hold()?;
+        let (mut fault, mut passed) = (None, Ends::both(false));
+        for _ in 0..MAX_ROUNDS {
+            let mut found = match self.converge_once() {
+                Ok(Ok(found)) => found,
+                // With limits held the contact is wider, and may need more than the bodies have, or
+                // may not reach so far.
+                stopped @ (Ok(Err(Stop::Beyond { .. })) | Err(_)) if self.lets_all_go() => {
+                    fault = fault.or(stopped.err());
+                    continue;
+                }
+                Err(error) => return Err(fault.unwrap_or(error)),
+                stopped => return stopped,
             };
-            if !self.misses(&found)? && !self.lets_go(&mut found)? {
+            if !self.misses(&found)?
+                && !self.passes(&found, &mut passed)
+                && !self.lets_go(&mut found, passed)?
+            {
                 return Ok(Ok(found));
             }
         }
+        Ok(Err(Stop::Failed))
+    }
+
+    /// Returns the conditions at the ends of the bodies for the contacts at hand: a corner is known
+    /// to press only from the contacts found without it, but a contact alone is not checked
+    /// otherwise.
+    pub(super) fn edges(&self) -> Ends<Edge<T>> {
+        let edges = self.conditions.edges;
+        if self.is_of_one { edges } else { edges.map(Edge::let_go) }
+    }
+
+    /// Returns the conditions at the edges of the only contact.
+    pub(super) fn edges_of_one(&self) -> Ends<Edge<T>> {
+        let (edges, ends) = (self.edges(), self.contact.ends());
+        let NewtonSeveral { on, held, .. } = &self.work.workspace.newton;
+        Ends::from_fn(|side| {
+            let limit = on.first().map_or(ends[side], |on| on[side]);
+            if held[0][side] { Edge::Fixed(limit) } else { edges[side] }
+        })
     }
 
     /// Holds the limits at hand that are at an end of the bodies, or next to a corner inside them.
-    fn hold(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
-        let (ends, at_corner) = (self.contact.ends(), self.corners());
-        self.held.clear();
-        let on = &mut self.work.workspace.newton.on;
-        let hull = Interval { left: on[0].left, right: on[on.len() - 1].right };
-        let reaches = Ends { left: hull.left <= ends.left, right: hull.right >= ends.right };
+    /// A contact whose place is not known is held at both ends.
+    fn hold(&mut self) -> Result<(), ContactError<T>> {
+        let (ends, conditions) = (self.contact.ends(), self.conditions);
+        let at_corner = self.edges().map(|edge| matches!(edge, Edge::FreeUntil(_)));
+        let by_load = !matches!(conditions.given, Given::HalfWidth(_));
+        let NewtonSeveral { on, held, .. } = &mut self.work.workspace.newton;
+        held.clear();
+        held.resize(on.len().max(1), Ends::both(false));
+        let (last, mut is_held) = (held.len() - 1, false);
         for side in Side::BOTH {
-            if at_corner[side] && reaches[side] {
-                put(on, side, ends[side]);
-                self.held.push((ends[side], side));
+            let reaches = match (side, on.first(), on.last()) {
+                (Side::Left, Some(on), _) => on.left <= ends.left,
+                (Side::Right, _, Some(on)) => on.right >= ends.right,
+                _ => by_load,
+            };
+            // A given width cannot be held at both.
+            if at_corner[side] && self.end != Some(side) && reaches && (by_load || !is_held) {
+                is_held = true;
+                held[if side == Side::Left { 0 } else { last }][side] = true;
+                if !on.is_empty() {
+                    put(on, side, ends[side]);
+                }
             }
         }
-        if matches!(conditions.given, Given::HalfWidth(_)) {
+        if self.is_of_one {
             return Ok(());
         }
         let sum = |sum: T, on: &Interval<T>| sum + on.half_width();
@@ -109,12 +150,36 @@ impl<T: Real> Search<'_, '_, '_, T> {
             for side in Side::BOTH {
                 let on = self.work.workspace.newton.on[i];
                 if let Some(z) = self.corner_next_to(on, side, mean)? {
-                    put(&mut self.work.workspace.newton.on[i..=i], side, z);
-                    self.held.push((z, side));
+                    self.hold_at(i, side, z);
                 }
             }
         }
         Ok(())
+    }
+
+    /// Holds a limit at a corner.
+    fn hold_at(&mut self, contact: usize, side: Side, z: T) {
+        let NewtonSeveral { on, held, .. } = &mut self.work.workspace.newton;
+        put(&mut on[contact..=contact], side, z);
+        held[contact][side] = true;
+    }
+
+    /// Holds the limits of the only contact that have passed a corner at an end of the bodies; tells
+    /// whether there are any, and marks them in `passed`.
+    fn passes(&mut self, found: &ContactState<T>, passed: &mut Ends<bool>) -> bool {
+        let (edges, on, mut any) = (self.edges(), found.interval, false);
+        if self.work.workspace.newton.on.len() > 1 {
+            return false;
+        }
+        for side in Side::BOTH {
+            let Edge::FreeUntil(z) = edges[side] else { continue };
+            let rounding = T::of(8.0) * T::epsilon() * (z.abs() + on.half_width());
+            if outward::<T>(side) * (on[side] - z) > rounding {
+                self.hold_at(0, side, z);
+                (passed[side], any) = (true, true);
+            }
+        }
+        any
     }
 
     /// Returns the corner inside the bodies next to a limit of a contact, if there is one. `mean`
@@ -215,24 +280,21 @@ impl<T: Real> Search<'_, '_, '_, T> {
         slopes
     }
 
-    /// Marks the limits of the contacts at hand that are held.
-    pub(super) fn mark_held(&mut self) {
-        let NewtonSeveral { on, held, .. } = &mut self.work.workspace.newton;
-        held.clear();
-        let marked = |on: &Interval<T>, side: Side| self.held.contains(&(on[side], side));
-        held.extend(on.iter().map(|on| Ends::from_fn(|side| marked(on, side))));
-    }
-
-    /// Lets go of corners that do not hold the contacts found, and tells whether there are any.
-    /// Otherwise adds the error of the limits that stay held.
-    fn lets_go(&mut self, found: &mut ContactState<T>) -> Result<bool, ContactError<T>> {
-        if self.held.is_empty() {
+    /// Lets go of corners that do not hold the contacts found, unless a free limit has passed them,
+    /// and tells whether there are any. Otherwise adds the error of the limits that stay held.
+    fn lets_go(
+        &mut self,
+        found: &mut ContactState<T>,
+        passed: Ends<bool>,
+    ) -> Result<bool, ContactError<T>> {
+        let held = self.strengths(found);
+        if held.is_empty() {
             return Ok(false);
         }
-        let held = self.strengths(found);
         let lower =
             |one: Held<T>, other: Held<T>| if other.strength < one.strength { other } else { one };
-        let lowest = held.into_iter().reduce(lower).filter(|held| held.strength < T::zero());
+        let held = held.into_iter().filter(|held| !passed[held.side]);
+        let lowest = held.reduce(lower).filter(|held| held.strength < T::zero());
         if let Some(Held { contact, side, z, .. }) = lowest {
             let half_width = self.work.workspace.newton.on[contact].half_width();
             self.let_go((contact, side, z), -T::of(STEP_INWARD) * half_width);
@@ -272,22 +334,34 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(!beyond.is_empty())
     }
 
-    /// Puts the limits that are held inside the bodies back where they were, free; tells whether
-    /// there are any.
+    /// Puts the limits that are held back where they were, free unless they were at an end of the
+    /// bodies; tells whether there are any.
     fn lets_all_go(&mut self) -> bool {
-        let (ends, count) = (self.contact.ends(), self.held.len());
-        self.held.retain(|&(z, side)| z == ends[side]);
-        let Workspace { newton, before, .. } = &mut *self.work.workspace;
-        newton.on.clone_from(before);
-        self.held.iter().for_each(|&(z, side)| put(&mut newton.on, side, z));
-        self.held.len() < count
+        let ends = self.contact.ends();
+        let Workspace { newton: NewtonSeveral { on, held, .. }, before, .. } =
+            &mut *self.work.workspace;
+        let mut any = false;
+        for (i, held) in held.iter_mut().enumerate() {
+            for side in Side::BOTH {
+                let stays = held[side] && !self.is_of_one && on[i][side] == ends[side];
+                any |= held[side] && !stays;
+                held[side] = stays;
+            }
+        }
+        on.clone_from(before);
+        for (i, held) in held.iter().enumerate() {
+            for side in Side::BOTH.into_iter().filter(|&side| held[side]) {
+                put(&mut on[i..=i], side, ends[side]);
+            }
+        }
+        any
     }
 
     /// Puts a held limit at a distance beyond its corner.
     fn let_go(&mut self, (contact, side, z): (usize, Side, T), away: T) {
-        self.held.retain(|&held| held != (z, side));
-        let on = &mut self.work.workspace.newton.on[contact..=contact];
-        put(on, side, z + outward::<T>(side) * away);
+        let NewtonSeveral { on, held, .. } = &mut self.work.workspace.newton;
+        held[contact][side] = false;
+        put(&mut on[contact..=contact], side, z + outward::<T>(side) * away);
     }
 
     /// Lists the limits that are held, with the strengths of their singularities.

@@ -1,36 +1,28 @@
-//! The loop over sets of contacts, and the table by which one set is made from the last.
+//! The table by which a fault of one set of contacts says which set is next.
 //!
-//! | result of the search or the check | next set of contacts |
+//! | fault | next set of contacts |
 //! |---|---|
 //! | tension in spans | the contacts are parted there |
 //! | overlap in dips | one more contact in each dip |
-//! | a gap closes | the contacts next to it become one |
-//! | a contact vanishes | the other contacts |
-//! | a limit passes a corner | the limit is put at the corner |
-//! | a limit passes an end, where the load for the other end is sought | the limit is put there |
-//! | nothing of use, or the set before the last again | the set of the cells |
+//! | gaps that close | the contacts next to them become one |
+//! | contacts that vanish | the other contacts |
+//! | a limit that passes a corner, or an end where the load for one is sought | the limit is put there |
+//! | anything else, or the set before the last again | the set of the cells |
+//! | of one contact | the lowest gap, if it was not looked for; the set of the cells |
+//! | an end of the bodies is passed, and the cells are no help | none: the load may be too large |
 //!
 //! All faults of a kind are mended at once.
 
 use super::super::active_set::{Coarse, NotFound, Scene, active_set};
 use super::super::newton::Stop;
-use super::super::newton::several::{self, Besides, put};
-use super::{Conditions, FIRST_CELLS, Search, Single, Work, Workspace, asked_by};
-use crate::solution::{ContactState, Outcome, Start};
+use super::super::newton::several::put;
+use super::{Conditions, FIRST_CELLS, Search, Tried, Work, Workspace, asked_by};
+use crate::solution::{Outcome, Start};
 use crate::{ContactError, Edge, Ends, Interval, Real, Side, SolveError};
-use std::ops::ControlFlow;
 
 /// Largest uncertainty of heights, as a share of F/κ, to show by themselves where the bodies
 /// touch: with 400 contacts a twelfth of the load of one.
 const MAX_UNCERTAINTY: f64 = 2e-4;
-
-/// Square of the relative change of the load, times the number of contacts, up to which the last
-/// contacts are the start: beyond, contacts that are born and vanish take more attempts than it
-/// saves (measured with 2 to 300 contacts).
-const MAX_CHANGE: f64 = 0.5;
-
-/// Sets of contacts tried before the search is given up.
-const MAX_TRIALS: usize = 12;
 
 /// Doublings of the cells: 2 112 of them separate contacts a thousandth of the bodies apart.
 const MAX_DOUBLINGS: usize = 6;
@@ -39,56 +31,188 @@ const MAX_DOUBLINGS: usize = 6;
 /// square is the first half-width of a contact put at an overlap, as a share of the bodies.
 const CORNER_STEP: f64 = 0.01;
 
-/// Outcome of an attempt, with the contacts found or the next start.
-type Trial<T> = (Outcome, ControlFlow<ContactState<T>, Start>);
+/// Reason why a set of contacts is not the solution.
+pub(in super::super) enum Fault<T: Real> {
+    /// Tension inside the contacts, with its spans in the workspace.
+    Tension(ContactError<T>),
+    /// Overlap outside the contacts, with its dips in the workspace.
+    Overlap(ContactError<T>),
+    /// Contacts that vanish, and contacts with a gap after them that closes.
+    Gone { vanished: Vec<bool>, closed: Vec<bool> },
+    /// Corner, or end of the bodies for which the load is sought, that a limit passes.
+    Reaches(Side),
+    /// End of the bodies that a limit passes.
+    Beyond(Side),
+    /// Limits that are not found, with the error of a search that says why.
+    Stuck(Option<ContactError<T>>),
+}
+
+impl<T: Real> Fault<T> {
+    fn outcome(&self) -> Outcome {
+        match self {
+            Self::Tension(_) => Outcome::Tension,
+            Self::Overlap(_) => Outcome::Overlap,
+            Self::Gone { closed, .. } if closed.contains(&true) => Outcome::Merged,
+            Self::Gone { .. } => Outcome::Lost,
+            Self::Reaches(_) => Outcome::ReachedCorner,
+            Self::Beyond(_) | Self::Stuck(_) => Outcome::NotFound,
+        }
+    }
+}
 
 impl<T: Real> Search<'_, '_, '_, T> {
-    /// Seeks any number of contacts; `fault` is the error of a search for one.
-    pub(super) fn several(
+    /// Enters an attempt in the report.
+    pub(in super::super) fn enter(&mut self, start: Start, tried: Tried<T>) -> Tried<T> {
+        let passed = match self.contact.single_interval {
+            true => Outcome::Unchecked,
+            false => Outcome::Passed,
+        };
+        let outcome =
+            |tried: &Result<_, Fault<T>>| tried.as_ref().map_or_else(Fault::outcome, |_| passed);
+        let attempt = tried.map(|tried| (outcome(&tried), tried));
+        self.work.workspace.report.end(start, attempt)
+    }
+
+    /// Returns the fault of a set whose limits were not found.
+    pub(super) fn fault_of(&mut self, stop: Stop<T>) -> Fault<T> {
+        let at_corner = self.corners();
+        let newton = &self.work.workspace.newton;
+        match stop {
+            Stop::Gone if newton.on.len() > 1 => {
+                let contacts = 0..newton.on.len();
+                let closed: Vec<bool> = contacts.clone().map(|i| newton.is_gone(i, true)).collect();
+                let vanished = contacts.clone().map(|i| newton.is_gone(i, false)).collect();
+                let of_rounding = contacts.filter(|&i| closed[i] && newton.is_nothing(i));
+                self.closed.extend(of_rounding.map(|i| newton.closed_gap(i)));
+                Fault::Gone { vanished, closed }
+            }
+            Stop::Beyond { side, .. } if at_corner[side] || self.end.is_some() => {
+                Fault::Reaches(side)
+            }
+            Stop::Beyond { side, .. } => Fault::Beyond(side),
+            Stop::Gone | Stop::Failed => Fault::Stuck(None),
+        }
+    }
+
+    /// Makes the next set of contacts at the fault of the last one, and returns its start; or the
+    /// error if there is none.
+    pub(in super::super) fn revise(
         &mut self,
-        mut fault: Option<ContactError<T>>,
-    ) -> Result<ContactState<T>, ContactError<T>> {
-        if !self.may_be_several() {
-            return Err(fault.unwrap_or(self.no_balance()));
+        fault: Fault<T>,
+        start: Start,
+    ) -> Result<Start, ContactError<T>> {
+        if self.is_of_one {
+            return self.after_one(fault, start);
         }
-        let first = fault.clone().filter(|fault| Outcome::of(fault) == Outcome::NotFound);
-        // A corner is known to press from the contacts found without it.
-        let edges = self.contact.edges.map(Edge::let_go);
-        let conditions = Conditions { edges, ..self.conditions };
-        let Workspace { last, newton, .. } = &mut *self.work.workspace;
-        let change = conditions.load() / conditions.kappa / newton.load - T::one();
-        if self.end.is_none() && T::count(last.len()) * change * change > T::of(MAX_CHANGE) {
-            last.clear();
+        let (ends, at_corner) = (self.contact.ends(), self.corners());
+        let Workspace { newton, before, .. } = &mut *self.work.workspace;
+        let on = &mut newton.on;
+        // The limits at which a search has stopped say little.
+        if !matches!(fault, Fault::Tension(_) | Fault::Overlap(_)) {
+            on.clone_from(before);
         }
-        let is_near = last.len() > 1 || self.end.is_some() && !last.is_empty();
-        let mut start = if is_near { Start::Last } else { Start::ActiveSet };
-        let mut earlier = Vec::new();
-        newton.on.clone_from(last);
-        for _ in 0..MAX_TRIALS {
-            if start == Start::ActiveSet && self.runs_out.is_some() {
-                // More cells find no contact under more load than the bodies bear.
-                if std::mem::replace(&mut self.has_run_out, true) {
-                    break;
-                }
-                if let Some(found) = self.borne(&conditions)? {
-                    return Ok(found);
+        let mut next = Start::Attempt;
+        match fault {
+            Fault::Tension(error) | Fault::Overlap(error) => {
+                self.error = Some(error);
+                next = self.mend();
+            }
+            Fault::Gone { vanished, closed } => {
+                for i in (0..on.len()).rev() {
+                    if closed[i] {
+                        on[i].right = on.remove(i + 1).right;
+                    } else if vanished[i] && on.len() > 1 && !(i > 0 && closed[i - 1]) {
+                        on.remove(i);
+                    }
                 }
             }
-            let trial = self.trial(start, &conditions, &mut fault);
-            let next = match self.work.workspace.report.end(start, trial)? {
-                ControlFlow::Break(found) => return Ok(found),
-                ControlFlow::Continue(next) => next,
-            };
-            let Workspace { newton, before, .. } = &*self.work.workspace;
-            // This revision undoes the one before. Unlike the cells, tension is exact.
-            let is_undone = is_alike(&newton.on, &earlier);
-            earlier.clear();
-            if start != Start::ActiveSet {
-                earlier.clone_from(before);
+            Fault::Reaches(side) if at_corner[side] => put(on, side, ends[side]),
+            // This end is reached under a smaller load.
+            Fault::Reaches(side) => self.end = Some(side),
+            Fault::Beyond(_) | Fault::Stuck(_) => {
+                // After a revision, the cells start from the last contacts; otherwise those say
+                // nothing.
+                if start != Start::Attempt {
+                    on.clear();
+                }
+                match fault {
+                    Fault::Beyond(side) => self.runs_out = Some(side),
+                    Fault::Stuck(error) => self.error = error.or(self.error.take()),
+                    _ => {}
+                }
+                next = Start::ActiveSet;
             }
-            start = if is_undone { Start::ActiveSet } else { next };
         }
-        Err(self.not_found(first, fault))
+        // This revision undoes the one before. Unlike the cells, tension is exact.
+        let Workspace { newton, before, .. } = &*self.work.workspace;
+        if is_alike(&newton.on, &self.earlier) {
+            next = Start::ActiveSet;
+        }
+        self.earlier.clear();
+        if start != Start::ActiveSet {
+            self.earlier.clone_from(before);
+        }
+        // More cells find no contact under more load than the bodies bear.
+        if next == Start::ActiveSet
+            && self.runs_out.is_some()
+            && std::mem::replace(&mut self.has_run_out, true)
+        {
+            return Err(self.not_found());
+        }
+        Ok(next)
+    }
+
+    /// Returns the start after a fault of one contact, or its error if any number of contacts would
+    /// have it.
+    fn after_one(&mut self, fault: Fault<T>, start: Start) -> Result<Start, ContactError<T>> {
+        match fault {
+            Fault::Tension(error) | Fault::Overlap(error) => self.error = Some(error),
+            Fault::Stuck(Some(error)) => {
+                let is_lost =
+                    matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }));
+                // The first search had no survey of the bodies.
+                if start == Start::Middle
+                    && is_lost
+                    && self.contact.gap.is_convex()
+                    && !self.contact.single_interval
+                {
+                    return Ok(Start::LowestGap);
+                }
+                if self.contact.single_interval || self.is_of_any_number(&error)? {
+                    return Err(error);
+                }
+                self.of_one = Some(error);
+            }
+            _ => {}
+        }
+        self.start_of_several()
+    }
+
+    /// Tells whether a search for several contacts would fail with the error of this search for
+    /// one.
+    fn is_of_any_number(&mut self, error: &ContactError<T>) -> Result<bool, ContactError<T>> {
+        match error {
+            ContactError::Solve(SolveError::Tension { .. } | SolveError::Overlap { .. }) => {
+                return Ok(false);
+            }
+            // If the bodies turn, more contacts may press at the corner.
+            ContactError::Solve(SolveError::LiftsOff { .. }) => {
+                return Ok(self.is_convex() || !self.turns());
+            }
+            _ => {}
+        }
+        if !self.contact.edges.are_sought() || !error.may_be_several() {
+            return Ok(true);
+        }
+        let is_shut = matches!(error, ContactError::Solve(SolveError::NoFirstContact { .. }));
+        if is_shut && self.end_touched_first().is_some() {
+            return Ok(true);
+        }
+        // If the bodies turn, one contact may be hard to find, too; likewise at corners, and among
+        // waves not yet seen.
+        let is_lost = matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }));
+        let is_convex = self.is_convex() && !self.corrects_survey()? && !self.has_corners()?;
+        Ok(!self.turns() && (is_convex || !is_lost && self.look()?.bulges()))
     }
 
     pub(super) fn no_balance(&self) -> ContactError<T> {
@@ -96,13 +220,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         SolveError::NoEquilibrium { half_width: T::of(0.5) * (to - near), near }.into()
     }
 
-    /// Returns the error of a search whose trials have all failed; `first` is the error of the
-    /// search for one contact.
-    fn not_found(
-        &self,
-        first: Option<ContactError<T>>,
-        fault: Option<ContactError<T>>,
-    ) -> ContactError<T> {
+    /// Returns the error of a search whose sets have all failed.
+    pub(in super::super) fn not_found(&mut self) -> ContactError<T> {
         // The error of one contact alone says more, unless it is the load that one contact would
         // bear.
         let says = |fault: &ContactError<T>| match fault {
@@ -110,90 +229,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
             ContactError::Solve(SolveError::DomainTooShort { .. }) => self.runs_out.is_none(),
             _ => true,
         };
-        let fault = first.filter(says).or(fault.filter(says));
-        fault.unwrap_or(self.no_balance())
-    }
-
-    /// Tries the contacts at hand, or those of the cells, and revises them if they fail.
-    fn trial(
-        &mut self,
-        start: Start,
-        conditions: &Conditions<T>,
-        fault: &mut Option<ContactError<T>>,
-    ) -> Result<Trial<T>, ContactError<T>> {
-        let [left, right] = self.contact.gap.range();
-        self.contact.gap.check_watch(*self.work.cost, Interval { left, right })?;
-        if start == Start::ActiveSet {
-            self.take_cells(conditions)?;
-        }
-        let found = match self.converge(conditions) {
-            Ok(Ok(found)) => found,
-            Ok(Err(stop)) => return Ok(self.revise(stop, start)),
-            Err(error) if error.may_be_several() => {
-                *fault = Some(error);
-                return Ok((Outcome::NotFound, ControlFlow::Continue(Start::ActiveSet)));
-            }
-            Err(error) => return Err(error),
-        };
-        match self.checked(&found)? {
-            None => Ok((Outcome::Passed, ControlFlow::Break(found))),
-            Some(error @ ContactError::Solve(SolveError::LiftsOff { .. })) => Err(error),
-            Some(error) => {
-                Ok((Outcome::of(fault.insert(error)), ControlFlow::Continue(self.mend())))
-            }
-        }
-    }
-
-    /// Revises the contacts according to the end of the search for their limits.
-    fn revise(&mut self, stop: Stop<T>, start: Start) -> Trial<T> {
-        let (ends, at_corner) = (self.contact.ends(), self.corners());
-        let Workspace { newton, before, .. } = &mut *self.work.workspace;
-        let (mut vanished, mut closed) = (Vec::new(), Vec::new());
-        if stop == Stop::Gone {
-            let contacts = 0..newton.on.len();
-            vanished.extend(contacts.clone().map(|i| newton.is_gone(i, false)));
-            closed.extend(contacts.clone().map(|i| newton.is_gone(i, true)));
-            let of_rounding = contacts.filter(|&i| closed[i] && newton.is_nothing(i));
-            self.closed.extend(of_rounding.map(|i| newton.closed_gap(i)));
-        }
-        // The limits at which the search has stopped say little.
-        newton.on.clone_from(before);
-        let on = &mut newton.on;
-        let outcome = match stop {
-            Stop::Gone if on.len() > 1 => {
-                let mut outcome = Outcome::Lost;
-                for i in (0..on.len()).rev() {
-                    if closed[i] {
-                        on[i].right = on.remove(i + 1).right;
-                        outcome = Outcome::Merged;
-                    } else if vanished[i] && on.len() > 1 && !(i > 0 && closed[i - 1]) {
-                        on.remove(i);
-                    }
-                }
-                outcome
-            }
-            Stop::Beyond { side, .. } if at_corner[side] => {
-                put(on, side, ends[side]);
-                Outcome::ReachedCorner
-            }
-            // This end is reached under a smaller load.
-            Stop::Beyond { side, .. } if self.end.is_some() => {
-                self.end = Some(side);
-                Outcome::ReachedCorner
-            }
-            _ => {
-                if let Stop::Beyond { side, .. } = stop {
-                    self.runs_out = Some(side);
-                }
-                // After a revision, the cells start from the last contacts; otherwise those say
-                // nothing.
-                if start != Start::Attempt {
-                    on.clear();
-                }
-                return (Outcome::NotFound, ControlFlow::Continue(Start::ActiveSet));
-            }
-        };
-        (outcome, ControlFlow::Continue(Start::Attempt))
+        let error = self.of_one.clone().filter(says).or(self.error.clone().filter(says));
+        error.unwrap_or(self.no_balance())
     }
 
     /// Parts the contacts at hand where there is tension, or puts new ones where the bodies would
@@ -237,62 +274,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
         corners
     }
 
-    /// Moves the contacts at hand until they bear the load, with some limits held.
-    pub(super) fn converge_once(
-        &mut self,
-        conditions: &Conditions<T>,
-    ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        self.mark_held();
-        if let (&[on], None) = (&self.work.workspace.newton.on[..], self.end) {
-            return self.one_of_set(conditions, on, self.work.workspace.newton.held[0]);
-        }
-        let (contact, ends) = (self.contact, self.contact.ends());
-        let Work { integrator, workspace, .. } = &mut *self.work;
-        let newton = &mut workspace.newton;
-        if let Some(side) = self.end {
-            put(&mut newton.on, side, ends[side]);
-        }
-        let Some(panels) = integrator.panels_mut() else { return Ok(Err(Stop::Failed)) };
-        let several = panels.several_mut();
-        let besides = conditions.at().map(Besides::Tilt).or(self.end.map(Besides::Load));
-        let load = conditions.load() / conditions.kappa;
-        let sought = several::Conditions { gap: &contact.gap, load, ends, besides };
-        if let Err(stop) = newton.converge(several, &sought)? {
-            return Ok(Err(stop));
-        }
-        let load = match self.end {
-            Some(_) => newton.load * conditions.kappa,
-            None => conditions.load(),
-        };
-        Ok(Ok(newton.found(several, conditions.kappa, load, &sought)))
-    }
-
-    /// Moves the only contact of a set until it bears the load.
-    fn one_of_set(
-        &mut self,
-        conditions: &Conditions<T>,
-        on: Interval<T>,
-        held: Ends<bool>,
-    ) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
-        let (contact, mut conditions, start) = (self.contact, *conditions, Some(on));
-        for side in Side::BOTH.into_iter().filter(|&side| held[side]) {
-            conditions.edges[side] = Edge::Fixed(on[side]);
-        }
-        let Work { integrator, workspace, cost } = &mut *self.work;
-        let (look, bears) = (None, Some(None));
-        let mut single = Single { contact, conditions, start, look, integrator, cost, bears };
-        let found = single.find(start)?;
-        (workspace.newton.on[0], workspace.newton.tilt) = (found.interval, found.tilt);
-        Ok(Ok(found))
-    }
-
     /// Takes the contacts from a coarse active set, with more cells after each failure.
-    fn take_cells(&mut self, conditions: &Conditions<T>) -> Result<(), ContactError<T>> {
+    pub(super) fn take_cells(&mut self) -> Result<(), ContactError<T>> {
         self.show_panels()?;
         // This number of cells has not failed yet.
         let cells = self.cells;
         self.cells = (cells + cells).min(FIRST_CELLS << MAX_DOUBLINGS);
-        let coarse = self.coarse(conditions, cells)?;
+        let coarse = self.coarse(&self.conditions.clone(), cells)?;
         self.runs_out = self.end_reached(&coarse);
         let tilt = self.contact.gap.tilt() + coarse.tilt;
         let newton = &mut self.work.workspace.newton;
