@@ -12,6 +12,7 @@ mod by_load;
 mod capacity;
 mod equations;
 mod exterior_field;
+mod fault;
 mod first_contact;
 mod found;
 mod moment;
@@ -223,16 +224,11 @@ fn find_under<T: Real>(
 fn settle<T: Real>(search: &mut Search<'_, '_, '_, T>) -> Result<ContactState<T>, ContactError<T>> {
     let mut start = search.first()?;
     for _ in 0..MAX_TRIALS {
-        let mut tried = search.equilibrium(start);
-        if let Ok(Ok(found)) = tried {
-            tried = search.check(found);
+        let found = search.equilibrium(start).and_then(|found| search.check(found));
+        match found {
+            Ok(found) => return Ok(search.end(start, found)),
+            Err(fault) => start = search.revise(fault, start)?,
         }
-        let next = match search.enter(start, tried) {
-            Ok(Ok(found)) => return Ok(found),
-            Ok(Err(fault)) => search.revise(fault, start),
-            Err(error) => Err(error),
-        };
-        start = next.or_else(|error| search.start_anew(error))?;
     }
     Err(search.not_found())
 }

@@ -120,7 +120,8 @@ impl Report {
         attempt.map(|(_, result)| result)
     }
 
-    fn add(&mut self, start: Start, outcome: Outcome) {
+    /// Enters an attempt.
+    pub(crate) fn add(&mut self, start: Start, outcome: Outcome) {
         self.count = (self.count + 1).min(MAX_ATTEMPTS);
         self.attempts[self.count - 1] = Attempt { start, outcome };
     }

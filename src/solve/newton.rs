@@ -13,19 +13,14 @@ pub(super) mod several;
 pub(super) mod single;
 
 use crate::gap::Gap;
-use crate::{Interval, Real, Side};
+use crate::{Interval, Real};
 
-/// Reason for a search to end without limits.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Reason for a search for one contact to end without limits.
+#[derive(Clone, Copy)]
 pub(super) enum Stop<T> {
-    /// Contacts that vanish or gaps that close.
-    Gone,
-    /// End of the bodies beyond which step after step leads; `reached` is the last interval within
+    /// Steps that lead beyond an end of the bodies time and again, with the last interval within
     /// them.
-    Beyond {
-        side: Side,
-        reached: Interval<T>,
-    },
+    Beyond(Interval<T>),
     Failed,
 }
 

@@ -170,7 +170,7 @@ impl<T: Real> Single<'_, '_, T> {
         let most_at_end = MAX_AT_END[usize::from(effort == Effort::Full)];
         let mut newton = NewtonSingle { integrator, gap, conditions, effort, most_at_end };
         let verdict = newton.converge(from)?;
-        let is_at_end = matches!(verdict, Err(Stop::Beyond { .. }));
+        let is_at_end = matches!(verdict, Err(Stop::Beyond(_)));
         if effort == Effort::Full && is_at_end && self.may_bear()? {
             let (integrator, conditions) = (&mut **self.integrator, &self.conditions);
             let most_at_end = usize::MAX;

@@ -16,16 +16,15 @@ mod workspace;
 
 use super::active_set::FIRST_CELLS;
 use super::edges::{Conditions, Given};
-use super::newton::Stop;
+use super::fault::Fault;
 use super::newton::several::{self, Besides, put};
 use super::signorini_check::step_of_heights;
 use super::single_contact::Single;
 use super::{Contact, Work, settle};
 use crate::gap::{Asked, Survey};
-use crate::solution::{ContactState, Start};
+use crate::solution::{ContactState, Outcome, Start};
 use crate::{ContactError, Interval, Real, Side, SolveError};
-pub(super) use bears::{Borne, bears, up_to_corner};
-pub(super) use revise::Fault;
+pub(super) use bears::up_to_corner;
 pub(crate) use workspace::Workspace;
 
 /// Finds the contacts of two bodies, or the load that they bear.
@@ -47,9 +46,6 @@ pub(super) fn find<T: Real>(
     })
 }
 
-/// Contacts in equilibrium, or the fault by which the set is not the solution.
-pub(super) type Tried<T> = Result<Result<ContactState<T>, Fault<T>>, ContactError<T>>;
-
 /// Search for the contacts.
 pub(super) struct Search<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
@@ -67,8 +63,8 @@ pub(super) struct Search<'s, 'w, 'b, T: Real> {
     cells: usize,
     /// Set before the last revision of one.
     earlier: Vec<Interval<T>>,
-    /// Places where gaps have closed.
-    closed: Vec<Interval<T>>,
+    /// Places where two contacts have met within rounding.
+    met: Vec<Interval<T>>,
     /// Single contacts in which a feature was lost to the panels.
     lost: Vec<Interval<T>>,
     /// Errors of the search for one contact, and of the last set.
@@ -89,7 +85,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         work: &'s mut Work<'w, T>,
     ) -> Self {
         let samples = work.integrator.cost().samples;
-        let [earlier, closed, lost] = [Vec::new(), Vec::new(), Vec::new()];
+        let [earlier, met, lost] = [Vec::new(), Vec::new(), Vec::new()];
         Self {
             contact,
             conditions,
@@ -100,7 +96,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             samples,
             cells: FIRST_CELLS,
             earlier,
-            closed,
+            met,
             lost,
             of_one: None,
             error: None,
@@ -130,7 +126,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
 
     /// Returns the start of a search for one contact after one for several that has failed without
     /// it, or the error.
-    pub(super) fn start_anew(&mut self, error: ContactError<T>) -> Result<Start, ContactError<T>> {
+    fn start_anew(&mut self, error: ContactError<T>) -> Result<Start, ContactError<T>> {
         let is_known = matches!(error, ContactError::Solve(SolveError::DomainTooShort { .. }));
         if !std::mem::take(&mut self.has_valleys) || is_known {
             return Err(error);
@@ -166,8 +162,16 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         Ok(if is_near { Start::Last } else { Start::ActiveSet })
     }
 
+    /// Enters the last attempt in the report, and returns the contacts found.
+    pub(super) fn end(&mut self, start: Start, found: ContactState<T>) -> ContactState<T> {
+        let single = self.contact.single_interval;
+        let outcome = if single { Outcome::Unchecked } else { Outcome::Passed };
+        self.work.workspace.report.add(start, outcome);
+        found
+    }
+
     /// Moves the contacts from a start until they are in equilibrium.
-    pub(super) fn equilibrium(&mut self, start: Start) -> Tried<T> {
+    pub(super) fn equilibrium(&mut self, start: Start) -> Result<ContactState<T>, Fault<T>> {
         let ([left, right], turns) = (self.contact.gap.range(), self.turns());
         let Workspace { last, newton, .. } = &mut *self.work.workspace;
         self.is_of_one = match start {
@@ -186,22 +190,15 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             self.look()?;
         }
         if start == Start::ActiveSet {
-            self.take_cells()?;
+            self.take_cells().map_err(Fault::Final)?;
         }
-        match self.converge() {
-            Ok(Ok(found)) => Ok(Ok(found)),
-            Ok(Err(stop)) => Ok(Err(self.fault_of(stop))),
-            Err(error) if self.is_of_one || error.may_be_several() => {
-                Ok(Err(Fault::Stuck(Some(error))))
-            }
-            Err(error) => Err(error),
-        }
+        self.converge()
     }
 
     /// Moves the contacts at hand once, with some limits held.
-    fn converge_once(&mut self) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
+    fn converge_once(&mut self) -> Result<ContactState<T>, Fault<T>> {
         if self.work.workspace.newton.on.len() <= 1 && self.end.is_none() {
-            return self.one().map(Ok);
+            return Ok(self.one()?);
         }
         let (contact, conditions, ends) = (self.contact, self.conditions, self.contact.ends());
         let Work { integrator, workspace, .. } = &mut *self.work;
@@ -209,19 +206,17 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         if let Some(side) = self.end {
             put(&mut newton.on, side, ends[side]);
         }
-        let Some(panels) = integrator.panels_mut() else { return Ok(Err(Stop::Failed)) };
+        let Some(panels) = integrator.panels_mut() else { return Err(Fault::Failed) };
         let several = panels.several_mut();
         let besides = conditions.at().map(Besides::Tilt).or(self.end.map(Besides::Load));
         let load = conditions.load() / conditions.kappa;
         let sought = several::Conditions { gap: &contact.gap, load, ends, besides };
-        if let Err(stop) = newton.converge(several, &sought)? {
-            return Ok(Err(stop));
-        }
+        newton.converge(several, &sought)?;
         let load = match self.end {
             Some(_) => newton.load * conditions.kappa,
             None => conditions.load(),
         };
-        Ok(Ok(newton.found(several, conditions.kappa, load, &sought)))
+        Ok(newton.found(several, conditions.kappa, load, &sought))
     }
 
     /// Moves the only contact of a set, or one whose place is not yet known.

@@ -13,12 +13,13 @@
 
 mod widths;
 
+use super::super::fault::Fault;
 use super::super::single_contact::MAX_DOUBT;
-use super::{Progress, Stop};
+use super::Progress;
 use crate::gap::Gap;
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{Ends, Interval, Real, Side};
 
 /// Steps before the search is given up.
 const MAX_STEPS: usize = 60;
@@ -150,7 +151,7 @@ impl<T: Real> NewtonSeveral<T> {
         &mut self,
         several: &mut Several<T>,
         conditions: &Conditions<'_, '_, T>,
-    ) -> Result<Result<(), Stop<T>>, ContactError<T>> {
+    ) -> Result<(), Fault<T>> {
         self.errors.clear();
         self.load = conditions.load;
         if !matches!(conditions.besides, Some(Besides::Tilt(_))) {
@@ -164,19 +165,15 @@ impl<T: Real> NewtonSeveral<T> {
         self.cut.resize(2 * self.on.len() - 1, 0);
         let mut turned = conditions.gap.tilted(self.tilt);
         for _ in 0..MAX_STEPS {
-            if let Err(stop) = self.assemble(several, &turned, conditions)? {
-                return Ok(Err(stop));
-            }
+            self.assemble(several, &turned, conditions)?;
             self.shorten();
             if !self.step.iter().all(|step| step.is_finite()) {
                 break;
             }
             self.turn(&mut turned, conditions.besides);
             let size = self.size();
-            match self.limit(conditions) {
-                Ok(true) => continue,
-                Ok(false) => {}
-                Err(stop) => return Ok(Err(stop)),
+            if self.limit(conditions)? {
+                continue;
             }
             if self.is_trial {
                 self.is_trial = size > T::of(LAST_TRIAL);
@@ -184,22 +181,20 @@ impl<T: Real> NewtonSeveral<T> {
             }
             if self.accept(size) {
                 if self.is_closed() {
-                    return Ok(Err(Stop::Gone));
+                    return Err(self.gone());
                 }
                 for _ in 0..T::DERIVATIVE_ORDER {
-                    if let Err(stop) = self.assemble(several, &turned, conditions)? {
-                        return Ok(Err(stop));
-                    }
+                    self.assemble(several, &turned, conditions)?;
                     self.turn(&mut turned, conditions.besides);
                     self.advance();
                 }
                 several.set(&turned, &self.on, &self.held, conditions.ends, false)?;
                 several.carry(self.load, &self.residues);
                 several.press();
-                return Ok(Ok(()));
+                return Ok(());
             }
         }
-        Ok(Err(Stop::Failed))
+        Err(Fault::Failed)
     }
 
     /// Assembles the equations of the contacts at hand, and solves them for the step.
@@ -208,10 +203,10 @@ impl<T: Real> NewtonSeveral<T> {
         several: &mut Several<T>,
         turned: &Gap<'_, T>,
         conditions: &Conditions<'_, '_, T>,
-    ) -> Result<Result<(), Stop<T>>, ContactError<T>> {
+    ) -> Result<(), Fault<T>> {
         // Between two contacts at a concave kink the gap shrinks exponentially with the load.
         if self.is_closed() {
-            return Ok(Err(Stop::Gone));
+            return Err(self.gone());
         }
         several.set(turned, &self.on, &self.held, conditions.ends, self.is_trial)?;
         self.residues.resize(several.poles(), T::zero());
@@ -224,10 +219,10 @@ impl<T: Real> NewtonSeveral<T> {
         }
         if let Some(i) = self.system.lost {
             self.cut[2 * i + 1] = MAX_CUT;
-            return Ok(Err(Stop::Gone));
+            return Err(self.gone());
         }
         if !self.system.factor() {
-            return Ok(Err(Stop::Failed));
+            return Err(Fault::Failed);
         }
         self.system.step(&mut self.step);
         self.moves.clear();
@@ -237,7 +232,7 @@ impl<T: Real> NewtonSeveral<T> {
                 self.moves[i] = -step;
             }
         }
-        Ok(Ok(()))
+        Ok(())
     }
 
     /// Takes the step of the residues, and of the tilt or of the load, if sought.
@@ -255,7 +250,7 @@ impl<T: Real> NewtonSeveral<T> {
     }
 
     /// Takes the step of the limits; tells whether widths were cut or an end passed.
-    fn limit(&mut self, conditions: &Conditions<'_, '_, T>) -> Result<bool, Stop<T>> {
+    fn limit(&mut self, conditions: &Conditions<'_, '_, T>) -> Result<bool, Fault<T>> {
         let (hull, ends) = (self.hull(), conditions.ends);
         self.advance();
         for (i, cut) in self.cut.iter_mut().enumerate() {
@@ -281,18 +276,16 @@ impl<T: Real> NewtonSeveral<T> {
         self.passed = passed.map(|side| (side, times + 1));
         let is_left = |&i: &Width| self.width(i) > T::zero();
         if !self.widths.iter().all(is_left) || self.cut.iter().any(|&times| times > MAX_CUT) {
-            return Err(Stop::Gone);
+            return Err(self.gone());
         }
         // A whole contact may have left the bodies.
         if !(self.on.iter().all(|on| on.left < on.right)
             && self.on.windows(2).all(|pair| pair[0].right < pair[1].left))
         {
-            return Err(Stop::Failed);
+            return Err(Fault::Failed);
         }
         match self.passed {
-            Some((side, times)) if times > MAX_CUT => {
-                Err(Stop::Beyond { side, reached: self.hull() })
-            }
+            Some((side, times)) if times > MAX_CUT => Err(Fault::Beyond(side)),
             None if self.widths.is_empty() => Ok(false),
             _ => {
                 self.progress.forget();
@@ -457,8 +450,7 @@ mod tests {
         newton.held = held.to_vec();
         let ends = gap.range().into();
         let conditions = Conditions { gap: &gap, load, ends, besides: None };
-        let verdict = newton.converge(&mut several, &conditions).unwrap();
-        assert_eq!(verdict, Ok(()), "{:?}", newton.on);
+        assert!(newton.converge(&mut several, &conditions).is_ok(), "{:?}", newton.on);
         (newton.on, newton.errors, several)
     }
 

@@ -143,7 +143,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         let next = self.before_ends(trial.on, wider);
         trial.at_end += usize::from(next != wider);
         if trial.at_end > self.most_at_end {
-            return Err(self.beyond(wider, next));
+            return Err(Stop::Beyond(next));
         }
         if !system.is_open() || next.is_same(&trial.on) {
             return Err(Stop::Failed);
@@ -173,7 +173,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         }
         trial.at_end += 1;
         if trial.at_end > self.most_at_end || next.is_same(&from) {
-            return Err(Err(self.beyond(on, next)));
+            return Err(Err(Stop::Beyond(next)));
         }
         trial.on = next;
         trial.progress.forget();
@@ -261,12 +261,6 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
             on = moved(conditions, on, system.lean(), [left, right], T::one());
         }
         Ok((on, load))
-    }
-
-    /// Returns the reason to end a search that left the bodies, with the last interval within them.
-    fn beyond(&self, to: Interval<T>, reached: Interval<T>) -> Stop<T> {
-        let side = if to.left < self.gap.range()[0] { Side::Left } else { Side::Right };
-        Stop::Beyond { side, reached }
     }
 
     /// Replaces a step that would leave the bodies by one that goes half the way to their end,

@@ -43,7 +43,7 @@ impl<T: Real> Single<'_, '_, T> {
                     on = Some(guess.on);
                     self.closer(span, &guess)
                 }
-                Err(Stop::Beyond { reached, .. }) => {
+                Err(Stop::Beyond(reached)) => {
                     on = None;
                     (self.up_to_corners(reached.plain()), true)
                 }

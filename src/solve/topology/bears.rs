@@ -9,11 +9,11 @@
 
 use super::super::active_set::FIRST_CELLS;
 use super::super::capacity::Capacity;
-use super::super::edges::Conditions;
+use super::super::edges::{Conditions, Given};
 use super::{Contact, Search, Work, settle};
 use crate::quadrature::LoadCase;
 use crate::solution::{ContactState, Solved, largest_pressure};
-use crate::{ContactError, Edge, Ends, Interval, Real, Side};
+use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
 
 /// Ratio of the loads that enclose the one under which cells reach an end of the bodies.
 const BRACKET_RATIO: f64 = 1.25;
@@ -30,24 +30,21 @@ const FIRST_STEP: f64 = 1.0 / 64.0;
 /// secants to rounding.)
 const MAX_LOADS: usize = 100;
 
+/// Halvings of the way from the middle of the bodies to a place where the load cannot act.
+const MAX_HALVES: usize = 14;
+
+/// Share of the bodies left beyond a contact that cannot be moved any further.
+const LEAST_LEFT: f64 = 0.01;
+
 /// Last step of the load, as a share of it, in units of rounding.
 const LAST_STEP: f64 = 1e4;
 
 /// Part of a load that the bodies bear.
-pub(in super::super) enum Borne<T: Real> {
+enum Borne<T: Real> {
     /// All of the load, in these contacts.
     All(ContactState<T>),
     /// Less than the load, in contacts that reach an end.
     UpTo(Capacity<T>),
-}
-
-/// Returns the part that the bodies bear of a load under which no contact was found, if known.
-pub(in super::super) fn bears<T: Real>(
-    contact: &Contact<'_, T>,
-    conditions: &Conditions<T>,
-    work: &mut Work<'_, T>,
-) -> Option<Borne<T>> {
-    Search::new(contact, *conditions, work).bears(conditions)
 }
 
 /// Returns the widest contacts that just reach a corner, if it holds the contacts under a given
@@ -69,43 +66,58 @@ pub(in super::super) fn up_to_corner<T: Real>(
 }
 
 impl<T: Real> Search<'_, '_, '_, T> {
-    /// Returns the contacts after all, or a better error, if the search has led to an end of the
-    /// bodies.
+    /// Returns the contacts after all, or an error that says what the bodies bear, if the search has
+    /// led to an end of them.
     pub(super) fn explain(
         &mut self,
         error: ContactError<T>,
     ) -> Result<ContactState<T>, ContactError<T>> {
-        // Bodies that turn bear another load.
-        if self.runs_out.is_none() || self.end.is_some() || self.turns() {
+        if self.runs_out.is_none() || self.end.is_some() {
             return Err(error);
         }
-        let edges = self.conditions.edges.map(Edge::let_go);
-        let conditions = Conditions { edges, ..self.conditions };
-        match self.bears(&conditions) {
-            Some(Borne::UpTo(widest)) => Err(widest.too_short(conditions.load())),
-            Some(Borne::All(found)) => Ok(found),
-            None => Err(error),
-        }
+        let (ends, conditions) = (self.contact.ends(), self.conditions);
+        let borne = match self.end_touched_first() {
+            Some(side) => Some(Borne::UpTo(Capacity::nothing(ends[side]))),
+            None => self.under_some_load(&conditions),
+        };
+        let error = match borne {
+            Some(Borne::All(found)) => return Ok(found),
+            Some(Borne::UpTo(widest)) => widest.too_short(conditions.load()),
+            None => error,
+        };
+        Err(self.nearest().unwrap_or(error))
     }
 
-    /// Returns the part that the bodies bear of a load under which cells reach an end of them.
-    pub(super) fn bears(&mut self, conditions: &Conditions<T>) -> Option<Borne<T>> {
-        let ends = self.contact.ends();
-        if let Some(side) = self.end_touched_first() {
-            return Some(Borne::UpTo(Capacity::nothing(ends[side])));
+    /// Returns the error with the nearest place where the load can act, between that given and the
+    /// middle of the bodies. `None` if it cannot act in the middle, either, or if no limit is near
+    /// an end.
+    fn nearest(&mut self) -> Option<ContactError<T>> {
+        let (conditions, ends, half) = (self.conditions, self.contact.ends(), T::of(0.5));
+        let (load, at) = (conditions.load(), conditions.at()?);
+        let mut find = |at: T| {
+            let conditions = Conditions { given: Given::Centre { load, at }, ..conditions };
+            settle(&mut Search::new(self.contact, conditions, &mut *self.work)).ok()
+        };
+        let (mut reached, mut beyond) = (half * ends.left + half * ends.right, at);
+        let mut found = find(reached)?;
+        for _ in 0..MAX_HALVES {
+            let at = half * reached + half * beyond;
+            match find(at) {
+                Some(nearer) => (reached, found) = (at, nearer),
+                None => beyond = at,
+            }
         }
-        self.under_some_load(conditions).or_else(|| {
-            let side = self.end_that_supports(conditions.at()?)?;
-            Some(Borne::UpTo(Capacity::nothing(ends[side])))
-        })
+        let (tilt, room) = (found.tilt, self.room(found.interval));
+        let is_at_end = room.left.min(room.right) <= T::of(LEAST_LEFT) * (ends.right - ends.left);
+        is_at_end.then(|| SolveError::TiltNotFound { load, at, reached, tilt, ends }.into())
     }
 
-    /// Returns the end of the bodies at which the gap is lowest: they bear no load then, unless
-    /// they turn.
+    /// Returns the end of the bodies at which the gap is lowest, or which is one of the two supports
+    /// of a light load along a given line: they bear no load then.
     pub(super) fn end_touched_first(&mut self) -> Option<Side> {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
-        if self.turns() {
-            return None;
+        if let Some(at) = self.conditions.at() {
+            return self.end_that_supports(at);
         }
         let lowest = self.look().ok()?.lowest();
         Side::BOTH.into_iter().find(|&side| lowest == ends[side] && !at_corner[side])

@@ -1,10 +1,10 @@
 //! Check of a solution: narrow features, corners, tension inside and overlap outside.
 
 use super::super::signorini_check::{SignoriniCheck, Under};
-use super::{Fault, Search, Tried, Work, Workspace, asked_by};
+use super::{Fault, Search, Work, Workspace, asked_by};
 use crate::gap::Gap;
 use crate::quadrature::Integrator;
-use crate::solution::ContactState;
+use crate::solution::{ContactState, Outcome};
 use crate::{ContactError, Ends, Interval, Real, SolveError};
 use std::borrow::Cow;
 
@@ -36,20 +36,19 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Checks a solution, unless that is not asked for.
-    pub(in super::super) fn check(&mut self, found: ContactState<T>) -> Tried<T> {
-        if self.contact.single_interval {
-            return Ok(Ok(found));
-        }
-        match self.checked(&found)? {
-            None => Ok(Ok(found)),
-            Some(error @ ContactError::Solve(SolveError::Tension { .. })) => {
-                Ok(Err(Fault::Tension(error)))
-            }
-            Some(error @ ContactError::Solve(SolveError::Overlap { .. })) => {
-                Ok(Err(Fault::Overlap(error)))
-            }
-            Some(error) if self.is_of_one => Ok(Err(Fault::Stuck(Some(error)))),
-            Some(error) => Err(error),
+    pub(in super::super) fn check(
+        &mut self,
+        found: ContactState<T>,
+    ) -> Result<ContactState<T>, Fault<T>> {
+        let single = self.contact.single_interval;
+        match if single { None } else { self.checked(&found)? } {
+            None => Ok(found),
+            Some(error) => Err(match Outcome::of(&error) {
+                Outcome::Tension => Fault::Tension(error),
+                Outcome::Overlap => Fault::Overlap(error),
+                _ if self.is_of_one => Fault::Error(error),
+                _ => Fault::Final(error),
+            }),
         }
     }
 
@@ -94,7 +93,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         // A gap open under a heavier load is open under a lighter one; a place pressed under a
         // lighter load is pressed under a heavier one.
         let (widest, pressed) = (passed.under_more(under), passed.under_less(on, contacts));
-        let closed = &self.closed;
+        let closed = &self.met;
         let check = SignoriniCheck { gap, panels, contacts, kappa, found, closed, widest, pressed };
         fields.each.clear();
         overlaps.dips.clear();

@@ -20,7 +20,7 @@
 //! π² K'/κ = ∫ s(t) dt/√(d - t) from 0 to d,      for a jump j  d = (π² K'/(2 κ j))²
 //! ```
 
-use super::super::newton::Stop;
+use super::super::fault::Fault;
 use super::super::newton::several::{NewtonSeveral, put};
 use super::{Given, Search, Workspace};
 use crate::gap::Sampler;
@@ -71,31 +71,30 @@ struct Held<T> {
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Moves the contacts at hand until they bear the load, held at corners or let go; repeats as
     /// long as their panels miss narrow features.
-    pub(super) fn converge(&mut self) -> Result<Result<ContactState<T>, Stop<T>>, ContactError<T>> {
+    pub(super) fn converge(&mut self) -> Result<ContactState<T>, Fault<T>> {
         let workspace = &mut *self.work.workspace;
         workspace.before.clone_from(&workspace.newton.on);
         self.hold()?;
         let (mut fault, mut passed) = (None, Ends::both(false));
         for _ in 0..MAX_ROUNDS {
             let mut found = match self.converge_once() {
-                Ok(Ok(found)) => found,
+                Ok(found) => found,
                 // With limits held the contact is wider, and may need more than the bodies have, or
                 // may not reach so far.
-                stopped @ (Ok(Err(Stop::Beyond { .. })) | Err(_)) if self.lets_all_go() => {
-                    fault = fault.or(stopped.err());
+                Err(other @ (Fault::Beyond(_) | Fault::Error(_))) if self.lets_all_go() => {
+                    fault = fault.or(Some(other));
                     continue;
                 }
-                Err(error) => return Err(fault.unwrap_or(error)),
-                stopped => return stopped,
+                Err(other) => return Err(fault.unwrap_or(other)),
             };
             if !self.misses(&found)?
                 && !self.passes(&found, &mut passed)
                 && !self.lets_go(&mut found, passed)?
             {
-                return Ok(Ok(found));
+                return Ok(found);
             }
         }
-        Ok(Err(Stop::Failed))
+        Err(Fault::Failed)
     }
 
     /// Returns the conditions at the ends of the bodies for the contacts at hand: a corner is known

@@ -14,9 +14,9 @@
 //! All faults of a kind are mended at once.
 
 use super::super::active_set::{Coarse, NotFound, Scene, active_set};
-use super::super::newton::Stop;
+use super::super::fault::Fault;
 use super::super::newton::several::put;
-use super::{Conditions, FIRST_CELLS, Search, Tried, Work, Workspace, asked_by};
+use super::{Conditions, Contact, FIRST_CELLS, Search, Work, Workspace, asked_by};
 use crate::solution::{Outcome, Start};
 use crate::{ContactError, Edge, Ends, Interval, Real, Side, SolveError};
 
@@ -31,79 +31,27 @@ const MAX_DOUBLINGS: usize = 6;
 /// square is the first half-width of a contact put at an overlap, as a share of the bodies.
 const CORNER_STEP: f64 = 0.01;
 
-/// Reason why a set of contacts is not the solution.
-pub(in super::super) enum Fault<T: Real> {
-    /// Tension inside the contacts, with its spans in the workspace.
-    Tension(ContactError<T>),
-    /// Overlap outside the contacts, with its dips in the workspace.
-    Overlap(ContactError<T>),
-    /// Contacts that vanish, and contacts with a gap after them that closes.
-    Gone { vanished: Vec<bool>, closed: Vec<bool> },
-    /// Corner, or end of the bodies for which the load is sought, that a limit passes.
-    Reaches(Side),
-    /// End of the bodies that a limit passes.
-    Beyond(Side),
-    /// Limits that are not found, with the error of a search that says why.
-    Stuck(Option<ContactError<T>>),
-}
-
-impl<T: Real> Fault<T> {
-    fn outcome(&self) -> Outcome {
-        match self {
-            Self::Tension(_) => Outcome::Tension,
-            Self::Overlap(_) => Outcome::Overlap,
-            Self::Gone { closed, .. } if closed.contains(&true) => Outcome::Merged,
-            Self::Gone { .. } => Outcome::Lost,
-            Self::Reaches(_) => Outcome::ReachedCorner,
-            Self::Beyond(_) | Self::Stuck(_) => Outcome::NotFound,
-        }
-    }
-}
+/// Next start, or the error of the search.
+type Next<T> = Result<Start, ContactError<T>>;
 
 impl<T: Real> Search<'_, '_, '_, T> {
-    /// Enters an attempt in the report.
-    pub(in super::super) fn enter(&mut self, start: Start, tried: Tried<T>) -> Tried<T> {
-        let passed = match self.contact.single_interval {
-            true => Outcome::Unchecked,
-            false => Outcome::Passed,
-        };
-        let outcome =
-            |tried: &Result<_, Fault<T>>| tried.as_ref().map_or_else(Fault::outcome, |_| passed);
-        let attempt = tried.map(|tried| (outcome(&tried), tried));
-        self.work.workspace.report.end(start, attempt)
-    }
-
-    /// Returns the fault of a set whose limits were not found.
-    pub(super) fn fault_of(&mut self, stop: Stop<T>) -> Fault<T> {
-        let at_corner = self.corners();
-        let newton = &self.work.workspace.newton;
-        match stop {
-            Stop::Gone if newton.on.len() > 1 => {
-                let contacts = 0..newton.on.len();
-                let closed: Vec<bool> = contacts.clone().map(|i| newton.is_gone(i, true)).collect();
-                let vanished = contacts.clone().map(|i| newton.is_gone(i, false)).collect();
-                let of_rounding = contacts.filter(|&i| closed[i] && newton.is_nothing(i));
-                self.closed.extend(of_rounding.map(|i| newton.closed_gap(i)));
-                Fault::Gone { vanished, closed }
-            }
-            Stop::Beyond { side, .. } if at_corner[side] || self.end.is_some() => {
-                Fault::Reaches(side)
-            }
-            Stop::Beyond { side, .. } => Fault::Beyond(side),
-            Stop::Gone | Stop::Failed => Fault::Stuck(None),
-        }
-    }
-
-    /// Makes the next set of contacts at the fault of the last one, and returns its start; or the
-    /// error if there is none.
+    /// Makes the next set of contacts at the fault of the last one; returns its start, or the error
+    /// if there is none.
     pub(in super::super) fn revise(
         &mut self,
         fault: Fault<T>,
         start: Start,
     ) -> Result<Start, ContactError<T>> {
-        if self.is_of_one {
-            return self.after_one(fault, start);
-        }
+        let (outcome, next) = match self.is_of_one {
+            true => self.after_one(fault, start),
+            false => self.after_set(fault, start),
+        };
+        self.work.workspace.report.add(start, outcome);
+        next.or_else(|error| self.start_anew(error))
+    }
+
+    /// Returns the outcome of a set, and the next start.
+    fn after_set(&mut self, fault: Fault<T>, start: Start) -> (Outcome, Next<T>) {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         let Workspace { newton, before, .. } = &mut *self.work.workspace;
         let on = &mut newton.on;
@@ -111,25 +59,39 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if !matches!(fault, Fault::Tension(_) | Fault::Overlap(_)) {
             on.clone_from(before);
         }
-        let mut next = Start::Attempt;
-        match fault {
+        let (outcome, next) = match fault {
             Fault::Tension(error) | Fault::Overlap(error) => {
+                let outcome = Outcome::of(&error);
                 self.error = Some(error);
-                next = self.mend();
+                (outcome, self.mend())
             }
-            Fault::Gone { vanished, closed } => {
+            Fault::Gone { vanished, closed, met } => {
+                let mut outcome = Outcome::Lost;
                 for i in (0..on.len()).rev() {
                     if closed[i] {
                         on[i].right = on.remove(i + 1).right;
+                        outcome = Outcome::Merged;
                     } else if vanished[i] && on.len() > 1 && !(i > 0 && closed[i - 1]) {
                         on.remove(i);
                     }
                 }
+                self.met.extend(met);
+                (outcome, Start::Attempt)
             }
-            Fault::Reaches(side) if at_corner[side] => put(on, side, ends[side]),
+            Fault::Beyond(side) if at_corner[side] => {
+                put(on, side, ends[side]);
+                (Outcome::ReachedCorner, Start::Attempt)
+            }
             // This end is reached under a smaller load.
-            Fault::Reaches(side) => self.end = Some(side),
-            Fault::Beyond(_) | Fault::Stuck(_) => {
+            Fault::Beyond(side) if self.end.is_some() => {
+                self.end = Some(side);
+                (Outcome::ReachedCorner, Start::Attempt)
+            }
+            Fault::Final(error) => return (Outcome::NotFound, Err(error)),
+            Fault::Error(error) if !error.may_be_several() => {
+                return (Outcome::NotFound, Err(error));
+            }
+            fault => {
                 // After a revision, the cells start from the last contacts; otherwise those say
                 // nothing.
                 if start != Start::Attempt {
@@ -137,13 +99,19 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 }
                 match fault {
                     Fault::Beyond(side) => self.runs_out = Some(side),
-                    Fault::Stuck(error) => self.error = error.or(self.error.take()),
+                    Fault::Error(error) => self.error = Some(error),
                     _ => {}
                 }
-                next = Start::ActiveSet;
+                (Outcome::NotFound, Start::ActiveSet)
             }
-        }
-        // This revision undoes the one before. Unlike the cells, tension is exact.
+        };
+        (outcome, self.unless_undone(next, start))
+    }
+
+    /// Returns the next start, unless the revision of a set has undone the one before, or there is no
+    /// other start.
+    fn unless_undone(&mut self, mut next: Start, start: Start) -> Next<T> {
+        // Unlike the cells, tension is exact.
         let Workspace { newton, before, .. } = &*self.work.workspace;
         if is_alike(&newton.on, &self.earlier) {
             next = Start::ActiveSet;
@@ -153,53 +121,47 @@ impl<T: Real> Search<'_, '_, '_, T> {
             self.earlier.clone_from(before);
         }
         // More cells find no contact under more load than the bodies bear.
-        if next == Start::ActiveSet
+        let is_last = next == Start::ActiveSet
             && self.runs_out.is_some()
-            && std::mem::replace(&mut self.has_run_out, true)
-        {
-            return Err(self.not_found());
-        }
-        Ok(next)
+            && std::mem::replace(&mut self.has_run_out, true);
+        if is_last { Err(self.not_found()) } else { Ok(next) }
     }
 
-    /// Returns the start after a fault of one contact, or its error if any number of contacts would
-    /// have it.
-    fn after_one(&mut self, fault: Fault<T>, start: Start) -> Result<Start, ContactError<T>> {
-        match fault {
-            Fault::Tension(error) | Fault::Overlap(error) => self.error = Some(error),
-            Fault::Stuck(Some(error)) => {
-                let is_lost =
-                    matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }));
-                // The first search had no survey of the bodies.
-                if start == Start::Middle
-                    && is_lost
-                    && self.contact.gap.is_convex()
-                    && !self.contact.single_interval
-                {
-                    return Ok(Start::LowestGap);
-                }
-                if self.contact.single_interval || self.is_of_any_number(&error)? {
-                    return Err(error);
-                }
-                self.of_one = Some(error);
+    /// Returns the outcome of a search for one contact, and the next start; or its error if any
+    /// number of contacts would have it.
+    fn after_one(&mut self, fault: Fault<T>, start: Start) -> (Outcome, Next<T>) {
+        let error = match fault {
+            Fault::Tension(error) | Fault::Overlap(error) => {
+                let outcome = Outcome::of(&error);
+                self.error = Some(error);
+                return (outcome, self.start_of_several());
             }
-            _ => {}
-        }
-        self.start_of_several()
+            Fault::Error(error) | Fault::Final(error) => error,
+            _ => self.no_balance(),
+        };
+        let Contact { gap, single_interval, .. } = self.contact;
+        let next = match self.is_of_any_number(&error) {
+            _ if *single_interval => Err(error),
+            // The first search had no survey of the bodies.
+            _ if start == Start::Middle && gap.is_convex() && is_lost(&error) => {
+                Ok(Start::LowestGap)
+            }
+            Ok(true) => Err(error),
+            Ok(false) => {
+                self.of_one = Some(error);
+                self.start_of_several()
+            }
+            Err(error) => Err(error),
+        };
+        (Outcome::NotFound, next)
     }
 
     /// Tells whether a search for several contacts would fail with the error of this search for
     /// one.
     fn is_of_any_number(&mut self, error: &ContactError<T>) -> Result<bool, ContactError<T>> {
-        match error {
-            ContactError::Solve(SolveError::Tension { .. } | SolveError::Overlap { .. }) => {
-                return Ok(false);
-            }
-            // If the bodies turn, more contacts may press at the corner.
-            ContactError::Solve(SolveError::LiftsOff { .. }) => {
-                return Ok(self.is_convex() || !self.turns());
-            }
-            _ => {}
+        // If the bodies turn, more contacts may press at the corner.
+        if let ContactError::Solve(SolveError::LiftsOff { .. }) = error {
+            return Ok(self.is_convex() || !self.turns());
         }
         if !self.contact.edges.are_sought() || !error.may_be_several() {
             return Ok(true);
@@ -210,9 +172,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         // If the bodies turn, one contact may be hard to find, too; likewise at corners, and among
         // waves not yet seen.
-        let is_lost = matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }));
         let is_convex = self.is_convex() && !self.corrects_survey()? && !self.has_corners()?;
-        Ok(!self.turns() && (is_convex || !is_lost && self.look()?.bulges()))
+        Ok(!self.turns() && (is_convex || !is_lost(error) && self.look()?.bulges()))
     }
 
     pub(super) fn no_balance(&self) -> ContactError<T> {
@@ -318,6 +279,11 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let at_corner = self.corners();
         Side::BOTH.into_iter().find(|&side| coarse.reaches[side] && !at_corner[side])
     }
+}
+
+/// Tells whether a search has found nothing.
+fn is_lost<T: Real>(error: &ContactError<T>) -> bool {
+    matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }))
 }
 
 /// Tells whether two sets have the same number of contacts, and each contact and each gap between

@@ -1,5 +1,6 @@
 //! Widths of contacts and of the gaps between them, and limits on their change in one step.
 
+use super::super::super::fault::Fault;
 use super::{MAX_CUT, MAX_CUT_STEPS, NewtonSeveral, Width};
 use crate::{Interval, Real};
 use std::cmp::Ordering;
@@ -109,17 +110,28 @@ impl<T: Real> NewtonSeveral<T> {
         (0..self.on.len() - 1).any(|i| self.is_nothing(i))
     }
 
-    /// Tells whether a contact has vanished, or the gap after it has closed.
-    pub(in super::super::super) fn is_gone(&self, i: usize, is_gap: bool) -> bool {
+    /// Returns the contacts that vanish and the gaps that close, if there are several contacts.
+    pub(super) fn gone(&self) -> Fault<T> {
+        let last = self.on.len() - 1;
+        if last == 0 {
+            return Fault::Failed;
+        }
         let is_cut = |i: Width| self.cut[i] >= MAX_CUT_STEPS;
-        match is_gap {
-            true => i + 1 < self.on.len() && (is_cut(2 * i + 1) || self.is_nothing(i)),
-            false => is_cut(2 * i) || self.on[i].left >= self.on[i].right,
+        let closes = |i: usize| i < last && (is_cut(2 * i + 1) || self.is_nothing(i));
+        let vanishes = |i: usize| is_cut(2 * i) || self.on[i].left >= self.on[i].right;
+        let met = (0..last).filter(|&i| self.is_nothing(i)).map(|i| {
+            let rounding = self.rounding(i);
+            Interval { left: self.on[i].right - rounding, right: self.on[i + 1].left + rounding }
+        });
+        Fault::Gone {
+            vanished: (0..=last).map(vanishes).collect(),
+            closed: (0..=last).map(closes).collect(),
+            met: met.collect(),
         }
     }
 
     /// Tells whether the gap after a contact is as narrow as rounding.
-    pub(in super::super::super) fn is_nothing(&self, i: usize) -> bool {
+    fn is_nothing(&self, i: usize) -> bool {
         self.gap(i) <= self.rounding(i)
     }
 
@@ -133,12 +145,5 @@ impl<T: Real> NewtonSeveral<T> {
     /// Returns the width of the gap after a contact.
     fn gap(&self, i: usize) -> T {
         self.on[i + 1].left - self.on[i].right
-    }
-
-    /// Returns a closed gap, widened by the rounding of both contacts to cover the uncertainty of
-    /// its place.
-    pub(in super::super::super) fn closed_gap(&self, i: usize) -> Interval<T> {
-        let rounding = self.rounding(i);
-        Interval { left: self.on[i].right - rounding, right: self.on[i + 1].left + rounding }
     }
 }

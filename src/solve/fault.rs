@@ -1,0 +1,31 @@
+//! Reasons why a set of contacts is not the solution.
+
+use crate::{ContactError, Interval, Real, Side};
+
+/// Fault of a set of contacts, with all places of its kind.
+pub(super) enum Fault<T: Real> {
+    /// Tension inside the contacts, with its spans in the workspace.
+    Tension(ContactError<T>),
+    /// Overlap outside the contacts, with its dips in the workspace.
+    Overlap(ContactError<T>),
+    /// Flags: contacts that vanish, and contacts with a gap after them that closes; and those of
+    /// these gaps that are as narrow as rounding.
+    Gone {
+        vanished: Vec<bool>,
+        closed: Vec<bool>,
+        met: Vec<Interval<T>>,
+    },
+    /// End of the bodies that a limit passes, step after step.
+    Beyond(Side),
+    /// Limits that are not found.
+    Failed,
+    /// Error of a search that another set of contacts may avoid, or not.
+    Error(ContactError<T>),
+    Final(ContactError<T>),
+}
+
+impl<T: Real> From<ContactError<T>> for Fault<T> {
+    fn from(error: ContactError<T>) -> Self {
+        Self::Error(error)
+    }
+}
