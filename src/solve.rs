@@ -226,8 +226,8 @@ fn settle<T: Real>(search: &mut Search<'_, '_, '_, T>) -> Result<ContactState<T>
     for _ in 0..MAX_TRIALS {
         let found = search.equilibrium(start).and_then(|found| search.check(found));
         match found {
-            Ok(found) => return Ok(search.end(start, found)),
-            Err(fault) => start = search.revise(fault, start)?,
+            Ok(found) => return Ok(found),
+            Err(fault) => start = search.revise(fault)?,
         }
     }
     Err(search.not_found())

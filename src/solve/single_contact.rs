@@ -287,8 +287,8 @@ impl<T: Real> Single<'_, '_, T> {
         Ok(best)
     }
 
-    /// Tells whether the bodies bear the load or width; false if that is unknown. Fails if it is too
-    /// large.
+    /// Tells whether the bodies bear the load or width; false if that is unknown. Fails if it is
+    /// too large.
     fn may_bear(&mut self) -> Result<bool, ContactError<T>> {
         // One of several contacts bears part of the load, and bodies that turn another one.
         if !self.is_alone || self.conditions.at().is_some() {

@@ -1,8 +1,8 @@
 //! Intervals in which the bodies touch: the set of contacts at hand, and how its limits are found.
 //!
 //! The loop over sets of contacts is [`settle`](super::settle). It begins with one contact, around
-//! the last one or at the lowest gap, or with several if the gap has several valleys. A set is moved
-//! until it is in equilibrium ([one contact](super::single_contact), [all
+//! the last one or at the lowest gap, or with several if the gap has several valleys. A set is
+//! moved until it is in equilibrium ([one contact](super::single_contact), [all
 //! limits](super::newton::several) at once), with limits [held at corners](corners); it is
 //! [checked](check); and its fault says which set is [next](revise). If a search leads to an end of
 //! the bodies, the load that they [bear](bears) is sought. Without adhesion a contact problem has
@@ -22,8 +22,8 @@ use super::signorini_check::step_of_heights;
 use super::single_contact::Single;
 use super::{Contact, Work, settle};
 use crate::gap::{Asked, Survey};
-use crate::solution::{ContactState, Outcome, Start};
-use crate::{ContactError, Interval, Real, Side, SolveError};
+use crate::solution::{ContactState, Start};
+use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
 pub(super) use bears::up_to_corner;
 pub(crate) use workspace::Workspace;
 
@@ -51,10 +51,8 @@ pub(super) struct Search<'s, 'w, 'b, T: Real> {
     contact: &'s Contact<'b, T>,
     conditions: Conditions<T>,
     work: &'s mut Work<'w, T>,
-    /// Flags: one contact is sought, from a start, instead of the set at hand; it may start from
-    /// the survey.
-    is_of_one: bool,
-    looks: bool,
+    /// Start of this attempt.
+    start: Start,
     /// Flag: several contacts are sought first, as the gap has several valleys; one may be left.
     has_valleys: bool,
     /// Number of samples of the gap before the search.
@@ -90,8 +88,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             contact,
             conditions,
             work,
-            is_of_one: false,
-            looks: false,
+            start: Start::Middle,
             has_valleys: false,
             samples,
             cells: FIRST_CELLS,
@@ -162,37 +159,67 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         Ok(if is_near { Start::Last } else { Start::ActiveSet })
     }
 
-    /// Enters the last attempt in the report, and returns the contacts found.
-    pub(super) fn end(&mut self, start: Start, found: ContactState<T>) -> ContactState<T> {
-        let single = self.contact.single_interval;
-        let outcome = if single { Outcome::Unchecked } else { Outcome::Passed };
-        self.work.workspace.report.add(start, outcome);
-        found
-    }
-
     /// Moves the contacts from a start until they are in equilibrium.
     pub(super) fn equilibrium(&mut self, start: Start) -> Result<ContactState<T>, Fault<T>> {
-        let ([left, right], turns) = (self.contact.gap.range(), self.turns());
-        let Workspace { last, newton, .. } = &mut *self.work.workspace;
-        self.is_of_one = match start {
-            Start::Attempt | Start::ActiveSet => false,
-            Start::Last => self.contact.single_interval || last.len() == 1 && self.end.is_none(),
-            _ => true,
-        };
-        self.looks = self.is_of_one && start != Start::Middle && !turns;
-        if self.is_of_one {
+        self.start = start;
+        if self.is_of_one() {
+            let Workspace { last, newton, .. } = &mut *self.work.workspace;
             newton.on.clear();
             newton.on.extend(last.first().filter(|_| start == Start::Last));
         } else {
+            let [left, right] = self.contact.gap.range();
             self.contact.gap.check_watch(*self.work.cost, Interval { left, right })?;
         }
-        if start == Start::LowestGap {
-            self.look()?;
-        }
-        if start == Start::ActiveSet {
-            self.take_cells().map_err(Fault::Final)?;
+        match start {
+            Start::LowestGap => _ = self.look()?,
+            Start::ActiveSet => self.take_cells().map_err(Fault::Final)?,
+            _ => {}
         }
         self.converge()
+    }
+
+    /// Tells whether one contact is sought, from a start, instead of the set at hand.
+    fn is_of_one(&self) -> bool {
+        match self.start {
+            Start::Attempt | Start::ActiveSet => false,
+            Start::Last => {
+                let is_one = self.work.workspace.last.len() == 1 && self.end.is_none();
+                self.contact.single_interval || is_one
+            }
+            _ => true,
+        }
+    }
+
+    /// Moves the contacts at hand until they bear the load, held at corners or let go; repeats as
+    /// long as their panels miss narrow features.
+    fn converge(&mut self) -> Result<ContactState<T>, Fault<T>> {
+        let workspace = &mut *self.work.workspace;
+        workspace.before.clone_from(&workspace.newton.on);
+        let may_be_held = self.hold()?;
+        let (mut fault, mut passed) = (None, Ends::both(false));
+        for _ in 0..MAX_ROUNDS {
+            let mut found = match self.converge_once() {
+                Ok(found) => found,
+                // With limits held the contact is wider, and may need more than the bodies have, or
+                // may not reach so far.
+                Err(other @ (Fault::Beyond(_) | Fault::Error(_)))
+                    if may_be_held && self.lets_all_go() =>
+                {
+                    fault = fault.or(Some(other));
+                    continue;
+                }
+                Err(other) => return Err(fault.unwrap_or(other)),
+            };
+            if self.misses(&found)? {
+                continue;
+            }
+            if !may_be_held
+                || !self.passes(&found, &mut passed) && !self.lets_go(&mut found, passed)?
+            {
+                return Ok(found);
+            }
+        }
+        Err(Fault::Failed)
     }
 
     /// Moves the contacts at hand once, with some limits held.
@@ -222,8 +249,11 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     /// Moves the only contact of a set, or one whose place is not yet known.
     fn one(&mut self) -> Result<ContactState<T>, ContactError<T>> {
         let (contact, mut conditions) = (self.contact, self.conditions);
-        let (is_alone, looks) = (self.is_of_one, self.looks);
-        conditions.edges = self.edges_of_one();
+        let is_alone = self.is_of_one();
+        let looks = is_alone && self.start != Start::Middle && !self.turns();
+        if !is_alone || self.work.workspace.newton.held[0] != Ends::both(false) {
+            conditions.edges = self.edges_of_one();
+        }
         let Work { integrator, workspace, cost } = &mut *self.work;
         let last = workspace.newton.on.first().copied();
         let start = if is_alone { contact.start } else { last };
@@ -270,6 +300,9 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         by_load && self.work.may_find_several(self.contact)
     }
 }
+
+/// Largest number of times that the limits of a set are sought, held or let go.
+const MAX_ROUNDS: usize = 200;
 
 /// Square of the relative change of the load, times the number of contacts, up to which the last
 /// contacts are the start: beyond, contacts that are born and vanish take more attempts than it

@@ -66,8 +66,8 @@ pub(in super::super) fn up_to_corner<T: Real>(
 }
 
 impl<T: Real> Search<'_, '_, '_, T> {
-    /// Returns the contacts after all, or an error that says what the bodies bear, if the search has
-    /// led to an end of them.
+    /// Returns the contacts after all, or an error that says what the bodies bear, if the search
+    /// has led to an end of them.
     pub(super) fn explain(
         &mut self,
         error: ContactError<T>,
@@ -112,8 +112,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         is_at_end.then(|| SolveError::TiltNotFound { load, at, reached, tilt, ends }.into())
     }
 
-    /// Returns the end of the bodies at which the gap is lowest, or which is one of the two supports
-    /// of a light load along a given line: they bear no load then.
+    /// Returns the end of the bodies at which the gap is lowest, or which is one of the two
+    /// supports of a light load along a given line: they bear no load then.
     pub(super) fn end_touched_first(&mut self) -> Option<Side> {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         if let Some(at) = self.conditions.at() {

@@ -35,18 +35,22 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(true)
     }
 
-    /// Checks a solution, unless that is not asked for.
+    /// Checks a solution, unless that is not asked for, and reports it if it has no fault.
     pub(in super::super) fn check(
         &mut self,
         found: ContactState<T>,
     ) -> Result<ContactState<T>, Fault<T>> {
         let single = self.contact.single_interval;
         match if single { None } else { self.checked(&found)? } {
-            None => Ok(found),
+            None => {
+                let outcome = if single { Outcome::Unchecked } else { Outcome::Passed };
+                self.work.workspace.report.add(self.start, outcome);
+                Ok(found)
+            }
             Some(error) => Err(match Outcome::of(&error) {
                 Outcome::Tension => Fault::Tension(error),
                 Outcome::Overlap => Fault::Overlap(error),
-                _ if self.is_of_one => Fault::Error(error),
+                _ if self.is_of_one() => Fault::Error(error),
                 _ => Fault::Final(error),
             }),
         }

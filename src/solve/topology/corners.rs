@@ -20,7 +20,6 @@
 //! π² K'/κ = ∫ s(t) dt/√(d - t) from 0 to d,      for a jump j  d = (π² K'/(2 κ j))²
 //! ```
 
-use super::super::fault::Fault;
 use super::super::newton::several::{NewtonSeveral, put};
 use super::{Given, Search, Workspace};
 use crate::gap::Sampler;
@@ -45,9 +44,6 @@ const STEP_INWARD: f64 = 0.01;
 /// Least ratio of distances d that are let go together.
 const TOGETHER: f64 = 0.01;
 
-/// Largest number of times that the limits of a set are sought, held or let go.
-const MAX_ROUNDS: usize = 200;
-
 /// Doublings of √d from its least value, and halvings of its logarithm after them: a start.
 const MAX_DOUBLINGS: usize = 40;
 const HALVINGS: usize = 5;
@@ -69,40 +65,12 @@ struct Held<T> {
 }
 
 impl<T: Real> Search<'_, '_, '_, T> {
-    /// Moves the contacts at hand until they bear the load, held at corners or let go; repeats as
-    /// long as their panels miss narrow features.
-    pub(super) fn converge(&mut self) -> Result<ContactState<T>, Fault<T>> {
-        let workspace = &mut *self.work.workspace;
-        workspace.before.clone_from(&workspace.newton.on);
-        self.hold()?;
-        let (mut fault, mut passed) = (None, Ends::both(false));
-        for _ in 0..MAX_ROUNDS {
-            let mut found = match self.converge_once() {
-                Ok(found) => found,
-                // With limits held the contact is wider, and may need more than the bodies have, or
-                // may not reach so far.
-                Err(other @ (Fault::Beyond(_) | Fault::Error(_))) if self.lets_all_go() => {
-                    fault = fault.or(Some(other));
-                    continue;
-                }
-                Err(other) => return Err(fault.unwrap_or(other)),
-            };
-            if !self.misses(&found)?
-                && !self.passes(&found, &mut passed)
-                && !self.lets_go(&mut found, passed)?
-            {
-                return Ok(found);
-            }
-        }
-        Err(Fault::Failed)
-    }
-
     /// Returns the conditions at the ends of the bodies for the contacts at hand: a corner is known
     /// to press only from the contacts found without it, but a contact alone is not checked
     /// otherwise.
     pub(super) fn edges(&self) -> Ends<Edge<T>> {
         let edges = self.conditions.edges;
-        if self.is_of_one { edges } else { edges.map(Edge::let_go) }
+        if self.is_of_one() { edges } else { edges.map(Edge::let_go) }
     }
 
     /// Returns the conditions at the edges of the only contact.
@@ -116,14 +84,19 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Holds the limits at hand that are at an end of the bodies, or next to a corner inside them.
-    /// A contact whose place is not known is held at both ends.
-    fn hold(&mut self) -> Result<(), ContactError<T>> {
-        let (ends, conditions) = (self.contact.ends(), self.conditions);
+    /// A contact whose place is not known is held at both ends. Tells whether limits may be held at
+    /// all.
+    pub(super) fn hold(&mut self) -> Result<bool, ContactError<T>> {
+        let (ends, conditions, is_of_one) =
+            (self.contact.ends(), self.conditions, self.is_of_one());
         let at_corner = self.edges().map(|edge| matches!(edge, Edge::FreeUntil(_)));
         let by_load = !matches!(conditions.given, Given::HalfWidth(_));
         let NewtonSeveral { on, held, .. } = &mut self.work.workspace.newton;
         held.clear();
         held.resize(on.len().max(1), Ends::both(false));
+        if is_of_one && at_corner == Ends::both(false) {
+            return Ok(false);
+        }
         let (last, mut is_held) = (held.len() - 1, false);
         for side in Side::BOTH {
             let reaches = match (side, on.first(), on.last()) {
@@ -140,8 +113,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 }
             }
         }
-        if self.is_of_one {
-            return Ok(());
+        if is_of_one {
+            return Ok(true);
         }
         let sum = |sum: T, on: &Interval<T>| sum + on.half_width();
         let mean = conditions.load() / conditions.kappa / on.iter().fold(T::zero(), sum);
@@ -153,7 +126,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 }
             }
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Holds a limit at a corner.
@@ -163,9 +136,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         held[contact][side] = true;
     }
 
-    /// Holds the limits of the only contact that have passed a corner at an end of the bodies; tells
-    /// whether there are any, and marks them in `passed`.
-    fn passes(&mut self, found: &ContactState<T>, passed: &mut Ends<bool>) -> bool {
+    /// Holds the limits of the only contact that have passed a corner at an end of the bodies;
+    /// tells whether there are any, and marks them in `passed`.
+    pub(super) fn passes(&mut self, found: &ContactState<T>, passed: &mut Ends<bool>) -> bool {
         let (edges, on, mut any) = (self.edges(), found.interval, false);
         if self.work.workspace.newton.on.len() > 1 {
             return false;
@@ -281,7 +254,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Lets go of corners that do not hold the contacts found, unless a free limit has passed them,
     /// and tells whether there are any. Otherwise adds the error of the limits that stay held.
-    fn lets_go(
+    pub(super) fn lets_go(
         &mut self,
         found: &mut ContactState<T>,
         passed: Ends<bool>,
@@ -335,14 +308,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Puts the limits that are held back where they were, free unless they were at an end of the
     /// bodies; tells whether there are any.
-    fn lets_all_go(&mut self) -> bool {
-        let ends = self.contact.ends();
+    pub(super) fn lets_all_go(&mut self) -> bool {
+        let (ends, is_of_one) = (self.contact.ends(), self.is_of_one());
         let Workspace { newton: NewtonSeveral { on, held, .. }, before, .. } =
             &mut *self.work.workspace;
         let mut any = false;
         for (i, held) in held.iter_mut().enumerate() {
             for side in Side::BOTH {
-                let stays = held[side] && !self.is_of_one && on[i][side] == ends[side];
+                let stays = held[side] && !is_of_one && on[i][side] == ends[side];
                 any |= held[side] && !stays;
                 held[side] = stays;
             }

@@ -6,7 +6,7 @@
 //! | overlap in dips | one more contact in each dip |
 //! | gaps that close | the contacts next to them become one |
 //! | contacts that vanish | the other contacts |
-//! | a limit that passes a corner, or an end where the load for one is sought | the limit is put there |
+//! | a limit that passes a corner, or an end for which the load is sought | it is put there |
 //! | anything else, or the set before the last again | the set of the cells |
 //! | of one contact | the lowest gap, if it was not looked for; the set of the cells |
 //! | an end of the bodies is passed, and the cells are no help | none: the load may be too large |
@@ -37,21 +37,17 @@ type Next<T> = Result<Start, ContactError<T>>;
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Makes the next set of contacts at the fault of the last one; returns its start, or the error
     /// if there is none.
-    pub(in super::super) fn revise(
-        &mut self,
-        fault: Fault<T>,
-        start: Start,
-    ) -> Result<Start, ContactError<T>> {
-        let (outcome, next) = match self.is_of_one {
-            true => self.after_one(fault, start),
-            false => self.after_set(fault, start),
+    pub(in super::super) fn revise(&mut self, fault: Fault<T>) -> Next<T> {
+        let (outcome, next) = match self.is_of_one() {
+            true => self.after_one(fault),
+            false => self.after_set(fault),
         };
-        self.work.workspace.report.add(start, outcome);
+        self.work.workspace.report.add(self.start, outcome);
         next.or_else(|error| self.start_anew(error))
     }
 
     /// Returns the outcome of a set, and the next start.
-    fn after_set(&mut self, fault: Fault<T>, start: Start) -> (Outcome, Next<T>) {
+    fn after_set(&mut self, fault: Fault<T>) -> (Outcome, Next<T>) {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         let Workspace { newton, before, .. } = &mut *self.work.workspace;
         let on = &mut newton.on;
@@ -94,7 +90,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             fault => {
                 // After a revision, the cells start from the last contacts; otherwise those say
                 // nothing.
-                if start != Start::Attempt {
+                if self.start != Start::Attempt {
                     on.clear();
                 }
                 match fault {
@@ -105,19 +101,19 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 (Outcome::NotFound, Start::ActiveSet)
             }
         };
-        (outcome, self.unless_undone(next, start))
+        (outcome, self.unless_undone(next))
     }
 
-    /// Returns the next start, unless the revision of a set has undone the one before, or there is no
-    /// other start.
-    fn unless_undone(&mut self, mut next: Start, start: Start) -> Next<T> {
+    /// Returns the next start, unless the revision of a set has undone the one before, or there is
+    /// no other start.
+    fn unless_undone(&mut self, mut next: Start) -> Next<T> {
         // Unlike the cells, tension is exact.
         let Workspace { newton, before, .. } = &*self.work.workspace;
         if is_alike(&newton.on, &self.earlier) {
             next = Start::ActiveSet;
         }
         self.earlier.clear();
-        if start != Start::ActiveSet {
+        if self.start != Start::ActiveSet {
             self.earlier.clone_from(before);
         }
         // More cells find no contact under more load than the bodies bear.
@@ -129,7 +125,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Returns the outcome of a search for one contact, and the next start; or its error if any
     /// number of contacts would have it.
-    fn after_one(&mut self, fault: Fault<T>, start: Start) -> (Outcome, Next<T>) {
+    fn after_one(&mut self, fault: Fault<T>) -> (Outcome, Next<T>) {
         let error = match fault {
             Fault::Tension(error) | Fault::Overlap(error) => {
                 let outcome = Outcome::of(&error);
@@ -143,7 +139,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let next = match self.is_of_any_number(&error) {
             _ if *single_interval => Err(error),
             // The first search had no survey of the bodies.
-            _ if start == Start::Middle && gap.is_convex() && is_lost(&error) => {
+            _ if self.start == Start::Middle && gap.is_convex() && is_lost(&error) => {
                 Ok(Start::LowestGap)
             }
             Ok(true) => Err(error),
