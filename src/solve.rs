@@ -224,11 +224,14 @@ fn find_under<T: Real>(
 fn settle<T: Real>(search: &mut Search<'_, '_, '_, T>) -> Result<ContactState<T>, ContactError<T>> {
     let mut start = search.first()?;
     for _ in 0..MAX_TRIALS {
-        let found = search.equilibrium(start).and_then(|found| search.check(found));
-        match found {
-            Ok(found) => return Ok(found),
-            Err(fault) => start = search.revise(fault)?,
-        }
+        let fault = match search.equilibrium(start) {
+            Ok(found) => match search.check(&found) {
+                Ok(()) => return Ok(found),
+                Err(fault) => fault,
+            },
+            Err(fault) => fault,
+        };
+        start = search.revise(fault)?;
     }
     Err(search.not_found())
 }

@@ -17,7 +17,7 @@ mod workspace;
 use super::active_set::FIRST_CELLS;
 use super::edges::{Conditions, Given};
 use super::fault::Fault;
-use super::newton::several::{self, Besides, put};
+use super::newton::several::{self, Besides, NewtonSeveral, put};
 use super::signorini_check::step_of_heights;
 use super::single_contact::Single;
 use super::{Contact, Work, settle};
@@ -193,8 +193,6 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     /// Moves the contacts at hand until they bear the load, held at corners or let go; repeats as
     /// long as their panels miss narrow features.
     fn converge(&mut self) -> Result<ContactState<T>, Fault<T>> {
-        let workspace = &mut *self.work.workspace;
-        workspace.before.clone_from(&workspace.newton.on);
         let may_be_held = self.hold()?;
         let (mut fault, mut passed) = (None, Ends::both(false));
         for _ in 0..MAX_ROUNDS {
@@ -225,7 +223,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     /// Moves the contacts at hand once, with some limits held.
     fn converge_once(&mut self) -> Result<ContactState<T>, Fault<T>> {
         if self.work.workspace.newton.on.len() <= 1 && self.end.is_none() {
-            return Ok(self.one()?);
+            return self.one();
         }
         let (contact, conditions, ends) = (self.contact, self.conditions, self.contact.ends());
         let Work { integrator, workspace, .. } = &mut *self.work;
@@ -247,11 +245,11 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     }
 
     /// Moves the only contact of a set, or one whose place is not yet known.
-    fn one(&mut self) -> Result<ContactState<T>, ContactError<T>> {
+    fn one(&mut self) -> Result<ContactState<T>, Fault<T>> {
         let (contact, mut conditions) = (self.contact, self.conditions);
         let is_alone = self.is_of_one();
         let looks = is_alone && self.start != Start::Middle && !self.turns();
-        if !is_alone || self.work.workspace.newton.held[0] != Ends::both(false) {
+        if !self.work.workspace.newton.held.is_empty() {
             conditions.edges = self.edges_of_one();
         }
         let Work { integrator, workspace, cost } = &mut *self.work;
@@ -260,10 +258,12 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         let look = workspace.survey_of(&contact.gap).filter(|_| looks);
         let found =
             Single { contact, conditions, start, look, integrator, cost, is_alone }.find(last)?;
-        let newton = &mut workspace.newton;
-        newton.on.clear();
-        newton.on.push(found.interval);
-        newton.tilt = found.tilt;
+        let NewtonSeveral { on, tilt, .. } = &mut workspace.newton;
+        match on.first_mut() {
+            Some(on) => *on = found.interval,
+            None => on.push(found.interval),
+        }
+        *tilt = found.tilt;
         Ok(found)
     }
 

@@ -36,16 +36,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Checks a solution, unless that is not asked for, and reports it if it has no fault.
-    pub(in super::super) fn check(
-        &mut self,
-        found: ContactState<T>,
-    ) -> Result<ContactState<T>, Fault<T>> {
+    pub(in super::super) fn check(&mut self, found: &ContactState<T>) -> Result<(), Fault<T>> {
         let single = self.contact.single_interval;
-        match if single { None } else { self.checked(&found)? } {
+        match if single { None } else { self.checked(found)? } {
             None => {
                 let outcome = if single { Outcome::Unchecked } else { Outcome::Passed };
                 self.work.workspace.report.add(self.start, outcome);
-                Ok(found)
+                Ok(())
             }
             Some(error) => Err(match Outcome::of(&error) {
                 Outcome::Tension => Fault::Tension(error),

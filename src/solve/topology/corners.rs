@@ -91,12 +91,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
             (self.contact.ends(), self.conditions, self.is_of_one());
         let at_corner = self.edges().map(|edge| matches!(edge, Edge::FreeUntil(_)));
         let by_load = !matches!(conditions.given, Given::HalfWidth(_));
-        let NewtonSeveral { on, held, .. } = &mut self.work.workspace.newton;
+        let Workspace { newton: NewtonSeveral { on, held, .. }, before, .. } =
+            &mut *self.work.workspace;
         held.clear();
-        held.resize(on.len().max(1), Ends::both(false));
         if is_of_one && at_corner == Ends::both(false) {
             return Ok(false);
         }
+        before.clone_from(on);
+        held.resize(on.len().max(1), Ends::both(false));
         let (last, mut is_held) = (held.len() - 1, false);
         for side in Side::BOTH {
             let reaches = match (side, on.first(), on.last()) {
