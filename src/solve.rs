@@ -38,7 +38,7 @@ use topology::Search;
 pub(crate) use topology::Workspace;
 
 /// Sets of contacts tried before the search is given up.
-const MAX_TRIALS: usize = 14;
+const MAX_SETS: usize = 14;
 
 /// Means of a search: the integrals, the state kept from one solve to the next, and the cost so
 /// far.
@@ -223,7 +223,7 @@ fn find_under<T: Real>(
 /// contacts at its fault, until there is none.
 fn settle<T: Real>(search: &mut Search<'_, '_, '_, T>) -> Result<ContactState<T>, ContactError<T>> {
     let mut start = search.first()?;
-    for _ in 0..MAX_TRIALS {
+    for _ in 0..MAX_SETS {
         let fault = match search.equilibrium(start) {
             Ok(found) => match search.check(&found) {
                 Ok(()) => return Ok(found),

@@ -15,11 +15,11 @@ use crate::{
 };
 
 /// Largest number of points of a table.
-const MAX_POINTS: usize = 4096;
+const MAX_TABLE: usize = 4096;
 
 /// Least distance of two points, as a share of the load: closer ones follow a kink, as where a
 /// corner is reached.
-const LEAST_STEP: f64 = 1e-6;
+const LEAST_STEP_OF_TABLE: f64 = 1e-6;
 
 /// Place of the second test between two points: here the error of the slopes is largest, in the
 /// middle the error of the values.
@@ -167,8 +167,8 @@ impl<T: Real> SpringTable<T> {
                 error = error.max(T::of(SAFETY_FACTOR) * of_values);
                 stiffness_error = stiffness_error.max(T::of(SAFETY_FACTOR) * of_stiffness);
             }
-            let is_apart = ratio > T::one() + T::of(LEAST_STEP);
-            if error > tolerance && is_apart && table.points.len() + pending.len() < MAX_POINTS {
+            let is_apart = ratio > T::one() + T::of(LEAST_STEP_OF_TABLE);
+            if error > tolerance && is_apart && table.points.len() + pending.len() < MAX_TABLE {
                 pending.extend([[middle, to], [from, middle]]);
                 continue;
             }

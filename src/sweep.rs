@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Largest number of scenes that one solver takes in a row.
 const MAX_IN_A_ROW: usize = 32;
 /// Number of rows into which even a short slice is divided, to keep all cores busy.
-const ROWS: usize = 64;
+const SLICE_ROWS: usize = 64;
 
 /// Solves each scene of a slice, over all cores, and returns the results in the order of the
 /// scenes.
@@ -49,7 +49,7 @@ where
     R: Send,
     E: Send,
 {
-    let row = scenes.len().div_ceil(ROWS).clamp(1, MAX_IN_A_ROW);
+    let row = scenes.len().div_ceil(SLICE_ROWS).clamp(1, MAX_IN_A_ROW);
     let done = AtomicUsize::new(0);
     let in_a_row = |row: &'_ [S]| -> Vec<Result<R, E>> {
         let mut solver = Solver::new();

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// Number of places at which the first cut is sought; they lie as multiples of the golden ratio do,
 /// so that no wave has the same height at all of them.
-const PLACES: usize = 64;
+const CUT_PLACES: usize = 64;
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Number of parts of a gap at whose ends a cut is sought.
@@ -52,10 +52,10 @@ impl<T: Real> Gap<'_, T> {
         let new = Self { watch, resolution, convex: false, period: Some(period), ..new };
         let gap = new.cut_at(start);
         let mut sampler = Sampler::default();
-        let mut samples = Vec::with_capacity(PLACES);
+        let mut samples = Vec::with_capacity(CUT_PLACES);
         // The end of the description is the first: where it is the highest place, results are in x
         // as described.
-        for i in 0..PLACES {
+        for i in 0..CUT_PLACES {
             let x = start + period * T::of((i as f64 * GOLDEN).fract());
             samples.push([x, sampler.height(&gap, x)?, sampler.slope(&gap, x)?]);
         }

@@ -29,7 +29,7 @@ use inverse_hermite::{InverseHermite, is_between, newton};
 const MAX_TARGETS: usize = 32;
 
 /// Largest number of steps of Newton's rule to a target, before the user's strategy takes over.
-const STEPS: usize = 4;
+const NEAR_STEPS: usize = 4;
 
 /// Points of one body that were sampled last, from left to right.
 #[derive(Clone, Debug)]
@@ -310,7 +310,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         } else {
             InverseHermite::new(&left, &right).parameter(target, &left, &right)
         };
-        for _ in 0..STEPS {
+        for _ in 0..NEAR_STEPS {
             if !is_between(k, left.k, right.k) {
                 break;
             }

@@ -299,7 +299,7 @@ fn step<T: Real>(
 const MAX_MOVE: f64 = 2e-3;
 
 /// Most terms of a move.
-const MAX_TERMS: usize = 8;
+const MAX_MOVE_TERMS: usize = 8;
 
 /// Replaces a series of N coefficients by the same polynomial on the range from `left - 1` to
 /// `right + 1`; `false` if that takes longer than to [expand] it.
@@ -316,7 +316,7 @@ pub(crate) fn moved<const N: usize, T: Real>(row: &mut Coeffs<T>, [left, right]:
     let size = |row: &Coeffs<T>| row[..N].iter().fold(T::zero(), |sum, a| sum + a.abs());
     let (mut term, mut before, mut exact) = (*row, size(row), 0);
     let (mut sum, nothing) = (term, T::of(0.125) * T::epsilon() * before);
-    for count in 1..=MAX_TERMS {
+    for count in 1..=MAX_MOVE_TERMS {
         let slopes = derivative::<N, T>(&term);
         let [along, beside] = [shift, half * wider].map(|by| share * by / T::count(count));
         for k in 0..N {

@@ -12,7 +12,7 @@ use std::ops::Range;
 
 /// Least distance of a far interval, as a share of the length of the places: its singularities lie
 /// at 2.5 half-lengths from the middle, so that coefficient n of a contribution falls as 4.79⁻ⁿ.
-const FAR_DISTANCE: f64 = 0.75;
+const FAR_FROM_PLACES: f64 = 0.75;
 
 /// Numbers of coefficients that leave rounding of f64, 4.79⁻²⁴, and half its digits, 4.79⁻¹².
 const COEFFICIENTS: usize = 24;
@@ -114,7 +114,7 @@ impl<T: Real> FarField<T> {
     ) {
         let hull = Interval { left: places[0].left, right: places[places.len() - 1].right };
         let mut near = self.nodes[above].near.clone();
-        let apart = T::of(FAR_DISTANCE) * (hull.right - hull.left);
+        let apart = T::of(FAR_FROM_PLACES) * (hull.right - hull.left);
         while !near.is_empty() && hull.left - intervals[near.start].right >= apart {
             near.start += 1;
         }

@@ -7,7 +7,7 @@ use super::dot;
 use crate::Real;
 
 /// Number of rows that are subtracted from another at a time: it is read and written once for all.
-const TOGETHER: usize = 4;
+const ROWS_TOGETHER: usize = 4;
 
 #[derive(Clone)]
 pub(crate) struct LinearSystem<T> {
@@ -71,21 +71,21 @@ impl<T: Real> LinearSystem<T> {
 /// Eliminates from a row the unknowns of the factored rows above it, several at a time.
 fn eliminate<T: Real>(above: &[T], row: &mut [T]) {
     let (zero, n) = (T::zero(), row.len());
-    for (block, pivots) in above.chunks(TOGETHER * n).enumerate() {
-        let (first, count) = (TOGETHER * block, pivots.len() / n);
-        let mut factors = [zero; TOGETHER];
+    for (block, pivots) in above.chunks(ROWS_TOGETHER * n).enumerate() {
+        let (first, count) = (ROWS_TOGETHER * block, pivots.len() / n);
+        let mut factors = [zero; ROWS_TOGETHER];
         for j in 0..count {
             let known = |rest: T, l: usize| rest - factors[l] * pivots[l * n + first + j];
             factors[j] = (0..j).fold(row[first + j], known) / pivots[j * n + first + j];
             row[first + j] = factors[j];
         }
         let row = &mut row[first + count..];
-        let rests: [&[T]; TOGETHER] = std::array::from_fn(|j| {
+        let rests: [&[T]; ROWS_TOGETHER] = std::array::from_fn(|j| {
             let end = (j.min(count - 1) + 1) * n;
             &pivots[end - row.len()..end]
         });
         for i in 0..row.len() {
-            row[i] -= (0..TOGETHER).fold(zero, |sum, j| sum + factors[j] * rests[j][i]);
+            row[i] -= (0..ROWS_TOGETHER).fold(zero, |sum, j| sum + factors[j] * rests[j][i]);
         }
     }
 }

@@ -20,7 +20,7 @@ const RANGES: usize = 64;
 /// Number of parts into which a range that disagrees is divided.
 const COMPONENTS: usize = 16;
 /// Number of parts that have to disagree with the same sign.
-const MAX_PARTS: usize = 12;
+const PARTS_THAT_DISAGREE: usize = 12;
 /// Largest number of times that a range is divided.
 const LEVELS: usize = 4;
 
@@ -245,5 +245,5 @@ fn is_wrong<T: Real>(parts: &[Range<T>], i: usize) -> bool {
     let total = parts.iter().fold(T::zero(), |sum, part| sum + part.missed[i].abs());
     let agrees =
         |part: &&Range<T>| part.is_off(i) && (part.missed[i] > T::zero()) == (sum > T::zero());
-    parts.iter().filter(agrees).count() >= MAX_PARTS && sum.abs() >= T::of(0.5) * total
+    parts.iter().filter(agrees).count() >= PARTS_THAT_DISAGREE && sum.abs() >= T::of(0.5) * total
 }

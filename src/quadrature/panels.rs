@@ -35,7 +35,7 @@ pub(crate) use half_angle::{Arc, HalfAngle};
 use hilbert_transform::{Edges, HilbertTransform, LANES};
 pub(crate) use panel::Panel;
 use panel::Series;
-use panel_set::{FINEST, LEAST};
+use panel_set::{FEWEST, LEAST_ULPS};
 pub(crate) use panel_set::{PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System};
 
@@ -71,7 +71,7 @@ impl Panels {
         if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
             return Err(InputError::InvalidTolerance { tolerance: T::of(self.tolerance) }.into());
         }
-        let tolerance = T::of(self.tolerance).max(T::of(FINEST) * T::epsilon());
+        let tolerance = T::of(self.tolerance).max(T::of(LEAST_ULPS) * T::epsilon());
         Ok(Box::new(PanelIntegrator {
             rule: *self,
             panel_set: PanelSet::new(tolerance),
@@ -235,19 +235,19 @@ impl<T: Real> PanelIntegrator<T> {
     /// Returns the number of nodes that should suffice, from the first ratio of the coefficients
     /// two apart. Next to a root, as at the side of a circle, the ratios rise from it like 2 - 1/m.
     fn expected_size(&self, on: Interval<T>) -> usize {
-        let Some([decay, half_width]) = self.decay else { return LEAST };
+        let Some([decay, half_width]) = self.decay else { return FEWEST };
         let shrunk = on.half_width() / half_width;
         let (first, mut left) = (decay * shrunk * shrunk, T::one());
         for m in 1..=MAX_SIZE / 2 {
             left *= (first * (T::of(2.0) - T::one() / T::count(m))).min(T::one());
             let n = 2 * m;
-            if n >= LEAST && SIZES.contains(&n) && left <= self.panel_set.tolerance {
+            if n >= FEWEST && SIZES.contains(&n) && left <= self.panel_set.tolerance {
                 return n;
             }
         }
         // Where the first ratio would do, few panels of many nodes.
         let would_do = first.powf(T::count(MAX_SIZE / 2)) <= self.panel_set.tolerance;
-        if would_do { MAX_SIZE } else { LEAST }
+        if would_do { MAX_SIZE } else { FEWEST }
     }
 }
 

@@ -7,10 +7,10 @@ use crate::{ContactError, EvaluationError, Interval, Real};
 use std::cmp::Ordering;
 
 /// Least number of grid points for the first search of a largest pressure.
-const POINTS: usize = 64;
+const LEAST_GRID: usize = 64;
 
 /// Largest number of grid points, unless more than half as many panels are present.
-const MAX_POINTS: usize = 1 << 14;
+const MAX_GRID: usize = 1 << 14;
 
 /// Largest number of breakpoints at which the pressure, known to be finite, is evaluated.
 const MAX_BREAKPOINTS: usize = 256;
@@ -180,11 +180,11 @@ pub(super) fn places<T: Real>(
         let mut left = on.left;
         let breakpoints = gap.telling_breakpoints(on, T::one(), MAX_BREAKPOINTS);
         for right in breakpoints.chain([on.right]) {
-            spans.push((Interval { left, right }, POINTS));
+            spans.push((Interval { left, right }, LEAST_GRID));
             left = right;
         }
     }
-    let [least, most] = [POINTS, MAX_POINTS].map(|points| points / spans.len());
+    let [least, most] = [LEAST_GRID, MAX_GRID].map(|points| points / spans.len());
     let mut places = Vec::new();
     for (span, nodes) in spans {
         let count = (2 * nodes).max(least).min(most.max(2));

@@ -10,7 +10,7 @@ use crate::quadrature::{Engine, Estimate, LoadCase};
 use crate::{ContactError, Ends, EvaluationError, Interval, Real, Side, SolveError};
 
 /// Largest number of points of a contact that [`Pressure::sample`] takes.
-const MAX_POINTS: usize = 1 << 20;
+const MAX_SAMPLE: usize = 1 << 20;
 
 /// Number of points of a row, the unit in which points are retried one by one after a failure.
 const ROW: usize = 256;
@@ -172,7 +172,7 @@ impl<T: Real> Pressure<'_, T> {
     /// # Errors
     /// As [`at_many`](Self::at_many).
     pub fn sample(&self, count: usize) -> Result<Vec<[T; 2]>, ContactError<T>> {
-        let count = count.clamp(2, MAX_POINTS);
+        let count = count.clamp(2, MAX_SAMPLE);
         let mut points = Vec::with_capacity(count * self.contacts.len());
         for (i, on) in self.contacts.iter().enumerate() {
             let free = self.integrator.free_of(i, self.load_case.free);

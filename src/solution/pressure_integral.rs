@@ -29,7 +29,7 @@ use std::sync::OnceLock;
 const NODES: usize = 16;
 
 /// Noise of the pressures of many contacts, as a share of the largest coefficient.
-const NOISE: f64 = 1e-11;
+const COEFFICIENT_NOISE: f64 = 1e-11;
 
 /// Largest number of panels beyond those between the breakpoints, before an integral is given up.
 const MAX_PANELS: usize = 20_000;
@@ -182,7 +182,8 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         let least = T::epsilon() * largest(&q);
         let [before, last] = [largest(&q[count - 8..count - 4]), largest(&q[count - 4..])];
         // Coefficients that fall no more are the noise of the pressures.
-        let is_noise = last >= T::of(0.25) * before && last <= T::of(NOISE) * largest(&q);
+        let is_noise =
+            last >= T::of(0.25) * before && last <= T::of(COEFFICIENT_NOISE) * largest(&q);
         let vanish = is_noise || last <= T::of(64.0) * least;
         q.truncate(q.iter().rposition(|q| q.abs() > least).map_or(1, |last| last + 1));
         Ok(vanish.then_some(q))
@@ -190,15 +191,15 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
 
     fn all_coefficients(&self, contact: usize, count: usize) -> Result<Vec<T>, ContactError<T>> {
         /// Coefficients that are integrated together.
-        const TOGETHER: usize = 32;
+        const COEFFICIENTS_TOGETHER: usize = 32;
         let on = self.contacts[contact].on;
-        let (one, mut q) = (T::one(), Vec::with_capacity(count + TOGETHER));
+        let (one, mut q) = (T::one(), Vec::with_capacity(count + COEFFICIENTS_TOGETHER));
         while q.len() < count {
             let first = q.len();
             let block = self.over_one(contact, on.centre(), |distance, strength| {
                 let z = -distance / on.half_width();
-                let (mut pair, mut block) = ([one, z], [T::zero(); TOGETHER]);
-                for k in 0..first + TOGETHER {
+                let (mut pair, mut block) = ([one, z], [T::zero(); COEFFICIENTS_TOGETHER]);
+                for k in 0..first + COEFFICIENTS_TOGETHER {
                     if k >= first {
                         block[k - first] = strength * if k == 0 { one } else { pair[0] + pair[0] };
                     }

@@ -4,7 +4,7 @@ use super::{LoadRates, Solution};
 use crate::{ContactError, EvaluationError, Real};
 
 /// Least number of places at which slopes of the gap are taken.
-const PLACES: usize = 64;
+const LEAST_PLACES: usize = 64;
 
 /// Number of places for each breakpoint in the contact, so that they resolve a smoothed spline.
 const PLACES_PER_BREAKPOINT: usize = 4;
@@ -60,7 +60,7 @@ impl<T: Real> Solution<'_, T> {
             return Err(EvaluationError::NoUncertainty { why: "there are several contacts" }.into());
         }
         let breakpoints = self.gap.breakpoints(on).count();
-        let count = PLACES.max(PLACES_PER_BREAKPOINT * breakpoints);
+        let count = LEAST_PLACES.max(PLACES_PER_BREAKPOINT * breakpoints);
         let step = T::pi() / T::count(count);
         let angles: Vec<T> = (0..count).map(|i| step * (T::count(i) + T::of(0.5))).collect();
         let x: Vec<T> = angles.iter().map(|&angle| on.at_angle(angle)).collect();

@@ -33,7 +33,7 @@ pub(super) const FIRST_CELLS: usize = 33;
 
 /// Number of cells above which none is cut any more: five for each of 3 000 contacts, whose limits
 /// take minutes.
-const MAX_CELLS: usize = 15_000;
+const MAX_CUT_CELLS: usize = 15_000;
 
 /// Largest number of rounds of cuts: enough for a contact of 1e-16 of the bodies.
 const MAX_CUTS: usize = 48;
@@ -202,7 +202,7 @@ impl<T: Real> ActiveSet<T> {
             work: 0,
         };
         let mut left = range[0];
-        let cells = cells.clamp(1, MAX_CELLS);
+        let cells = cells.clamp(1, MAX_CUT_CELLS);
         for i in 1..=cells {
             let share = T::count(i) / T::count(cells);
             let right = if i == cells { range[1] } else { range[0] + share * width };
@@ -326,7 +326,7 @@ impl<T: Real> ActiveSet<T> {
         intervals: &[Interval<T>],
         height: Height<'_, T>,
     ) -> Result<bool, NotFound<T>> {
-        let room = MAX_CELLS.saturating_sub(self.cells.len()) / 2;
+        let room = MAX_CUT_CELLS.saturating_sub(self.cells.len()) / 2;
         let cells = std::mem::take(&mut self.cells);
         let mut cut = 0;
         for (cell, &mark) in cells.iter().zip(marks) {

@@ -45,7 +45,7 @@ const LEAST_STEP: f64 = 1.001;
 
 /// Largest load of a row of contacts that is tried, by that of complete contact: there the gap of
 /// waves is 2 % of the period.
-const LARGEST: f64 = 0.999;
+const LARGEST_SHARE: f64 = 0.999;
 
 /// Largest factor between a load and the first one while the load is not enclosed.
 const MAX_FACTOR: f64 = 1e12;
@@ -330,7 +330,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                 }
                 // Nearer to complete contact nothing is solved.
                 ContactError::Solve(CompleteContact { complete, .. })
-                    if self.low.is_none_or(|low| low.load < T::of(LARGEST) * complete) =>
+                    if self.low.is_none_or(|low| low.load < T::of(LARGEST_SHARE) * complete) =>
                 {
                     Ok(ControlFlow::Continue(unknown(load.min(complete), infinite)))
                 }

@@ -72,10 +72,10 @@ fn scan<T: Real>(
     start: Interval<T>,
     not_found: ContactError<T>,
 ) -> Result<Signs<T>, ContactError<T>> {
-    const STEPS: usize = 32;
-    let step = (start.right - start.left) / T::count(STEPS);
+    const SCAN_STEPS: usize = 32;
+    let step = (start.right - start.left) / T::count(SCAN_STEPS);
     let mut left = (start.left, sampler.slope(gap, start.left)?);
-    for i in 1..=STEPS {
+    for i in 1..=SCAN_STEPS {
         let x = start.left + step * T::count(i);
         let right = (x.min(start.right), sampler.slope(gap, x.min(start.right))?);
         if left.1 <= T::zero() && right.1 >= T::zero() && left.1 < right.1 {

@@ -195,7 +195,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     fn converge(&mut self) -> Result<ContactState<T>, Fault<T>> {
         let may_be_held = self.hold()?;
         let (mut fault, mut passed) = (None, Ends::both(false));
-        for _ in 0..MAX_ROUNDS {
+        for _ in 0..MAX_HELD_ROUNDS {
             let mut found = match self.converge_once() {
                 Ok(found) => found,
                 // With limits held the contact is wider, and may need more than the bodies have, or
@@ -302,7 +302,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
 }
 
 /// Largest number of times that the limits of a set are sought, held or let go.
-const MAX_ROUNDS: usize = 200;
+const MAX_HELD_ROUNDS: usize = 200;
 
 /// Square of the relative change of the load, times the number of contacts, up to which the last
 /// contacts are the start: beyond, contacts that are born and vanish take more attempts than it

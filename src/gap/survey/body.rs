@@ -4,7 +4,7 @@ use super::check::check;
 use super::hull_in;
 use super::panel::{Missed, Panel, missed_by};
 use super::segment::Segment;
-use super::series::{BodyPoint, NODES, POINTS, Series};
+use super::series::{BodyPoint, SAMPLES, Series, TESTED};
 use crate::gap::Surface;
 use crate::numerics::chebyshev::Table;
 use crate::{CurvePoint, ProfileError, Real, Side};
@@ -17,7 +17,7 @@ const FEW_PIECES: usize = 16;
 const MAX_RUNS: usize = 256;
 
 /// Number of parts of a piece for which room is reserved.
-const MAX_PARTS: usize = 16;
+const PARTS_RESERVED: usize = 16;
 
 /// Largest number of windows by which a long body is narrowed to the other one.
 const MAX_WINDOWS: usize = 8;
@@ -97,7 +97,7 @@ impl<T: Real> Body<T> {
         self.fresh.push(range);
         self.points.clear();
         // Room to halve each panel once.
-        self.points.reserve(2 * (NODES + 2) * self.panels.len().min(FEW_PIECES));
+        self.points.reserve(2 * (SAMPLES + 2) * self.panels.len().min(FEW_PIECES));
         if is_again {
             self.make_room();
         }
@@ -118,8 +118,8 @@ impl<T: Real> Body<T> {
 
     /// Makes room for each panel to be refined several times: bodies that move allocate nothing.
     fn make_room(&mut self) {
-        let few = MAX_PARTS * self.panels.len().min(FEW_PIECES);
-        self.points.reserve((NODES + 2) * few);
+        let few = PARTS_RESERVED * self.panels.len().min(FEW_PIECES);
+        self.points.reserve((SAMPLES + 2) * few);
         self.series.reserve(few);
         self.missed.reserve(few);
         self.panels.reserve(few);
@@ -127,9 +127,9 @@ impl<T: Real> Body<T> {
         let Scratch { probes, k, points, panels, wanted } = &mut self.scratch;
         panels.reserve(few + self.panels.len());
         wanted.reserve(few);
-        probes.reserve(POINTS * few);
-        k.reserve(POINTS * few);
-        points.reserve(POINTS * few);
+        probes.reserve(TESTED * few);
+        k.reserve(TESTED * few);
+        points.reserve(TESTED * few);
     }
 
     /// Returns the largest number of evaluations for refining the marked panels on some spans.
@@ -148,7 +148,7 @@ impl<T: Real> Body<T> {
                 None => panel.last - panel.piece + 1,
             }
         };
-        self.panels.iter().fold(0, |sum: usize, panel| sum.saturating_add(POINTS * batches(panel)))
+        self.panels.iter().fold(0, |sum: usize, panel| sum.saturating_add(TESTED * batches(panel)))
     }
 
     /// Refines the marked panels on some spans: samples those that are not sampled, cuts windows
@@ -261,7 +261,7 @@ impl<T: Real> Body<T> {
             points.resize(k.len(), piece.ends[0]);
             piece.curve.at_many(k, points);
             *heights = heights.saturating_add(k.len());
-            for (&i, points) in batch.iter().zip(points.as_chunks::<POINTS>().0) {
+            for (&i, points) in batch.iter().zip(points.as_chunks::<TESTED>().0) {
                 let panel = &mut self.panels[i];
                 let mut series = Series::new(panel.k, points);
                 let missed = missed_by(&series, panel, &self.missed);
@@ -364,7 +364,7 @@ impl<T: Real> Body<T> {
             Some(number) => {
                 let series = &self.series[number];
                 let [y, slope] = series.at(x);
-                let near = series.points.partition_point(|row| row.x < x).min(NODES - 1);
+                let near = series.points.partition_point(|row| row.x < x).min(SAMPLES - 1);
                 [y, slope, series.points[near].doubt]
             }
             None => {
@@ -384,7 +384,7 @@ impl<T: Real> Body<T> {
 fn inner<'s, T: Real>(series: &'s [Series<T>], panel: &Panel<T>) -> &'s [BodyPoint<T>] {
     let Some(series) = panel.series.map(|number| &series[number]) else { return &[] };
     let [from, to] = panel.k.map(|k| series.t(k));
-    let nodes = &Table::of(NODES).z[..NODES];
+    let nodes = &Table::of(SAMPLES).z[..SAMPLES];
     let first = nodes.partition_point(|&node| T::of(node) < from);
     let after = nodes.partition_point(|&node| T::of(node) <= to);
     &series.points[first..after.max(first)]

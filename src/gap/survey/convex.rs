@@ -25,7 +25,7 @@ const MAX_FOR_PROOF: usize = 81;
 
 /// Largest uncertainty of two neighbouring slopes in a proof, as a share of the rise between them.
 /// A wave that hides in it has a length of about this share of the distance of the points.
-const MAX_UNCERTAINTY: f64 = 1e-3;
+const MAX_SLOPE_UNCERTAINTY: f64 = 1e-3;
 
 /// Number of spans on either side of a span that must bulge like it.
 const IN_A_ROW: usize = 2;
@@ -224,7 +224,7 @@ impl<T: Real> Survey<T> {
         // An upright end tells nothing of what lies before it.
         let is_known = rise >= -rounding
             && rise.is_finite()
-            && doubt <= T::of(MAX_UNCERTAINTY) * rise.max(T::zero());
+            && doubt <= T::of(MAX_SLOPE_UNCERTAINTY) * rise.max(T::zero());
         if node.is_open || node.is_void || !is_known { Shape::Open } else { Shape::Convex }
     }
 }

@@ -25,7 +25,7 @@ const SHARE_OF_RISE: f64 = 0.01;
 const MAX_POLISHES: usize = 6;
 
 /// Largest number of halvings of an interval in search of a width or a place.
-const MAX_HALVES: usize = 200;
+const MAX_BISECTIONS: usize = 200;
 
 /// Height of the gap at x, or the approximate lowest one between two places, `[x, h, h']`, and its
 /// uncertainty.
@@ -216,7 +216,7 @@ impl<T: Real> Survey<T> {
                 let hertz = |reach: T| T::frac_pi_2() * reach * pressure;
                 let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
                 let mut load = self.borne(reach);
-                for _ in 0..MAX_HALVES {
+                for _ in 0..MAX_BISECTIONS {
                     if borne(reach) <= hertz(reach) {
                         break;
                     }
@@ -256,7 +256,7 @@ impl<T: Real> Survey<T> {
     pub(super) fn reach_of(&self, load: T) -> T {
         let half = T::of(0.5);
         let mut reach = T::of(0.25) * (self.range[1] - self.range[0]);
-        for _ in 0..MAX_HALVES {
+        for _ in 0..MAX_BISECTIONS {
             // NaN where the slope is unknown.
             let bears = self.borne(half * reach) >= load;
             if !bears {
@@ -299,7 +299,7 @@ impl<T: Real> Survey<T> {
             return half * low + half * end;
         }
         let from = low;
-        for _ in 0..MAX_HALVES {
+        for _ in 0..MAX_BISECTIONS {
             if (high - low).abs() <= T::of(0.0625) * (low - from).abs() {
                 break;
             }
@@ -315,7 +315,7 @@ impl<T: Real> Survey<T> {
         let (x, half, [from, to]) = (self.lowest, T::of(0.5), self.range);
         let mut left = (x - half_width).max(from + half_width);
         let mut right = (x + half_width).min(to - half_width);
-        for _ in 0..MAX_HALVES {
+        for _ in 0..MAX_BISECTIONS {
             let middle = half * left + half * right;
             if !(left < middle && middle < right) {
                 break;

@@ -20,10 +20,10 @@ const CUBIC_RISE: f64 = 4.0 / 27.0;
 const ROUNDING: f64 = 64.0;
 
 /// Places at which a piece is compared with a cubic, in shares of the way.
-const PLACES: [f64; 2] = [0.3, 0.7];
+const CUBIC_PLACES: [f64; 2] = [0.3, 0.7];
 
 /// Largest number of runs into which a run is divided.
-const PARTS: usize = 16;
+const MAX_RUNS: usize = 16;
 
 impl<T: Real> Panel<T> {
     /// Makes the panel of some pieces of a body, known only by their ends.
@@ -67,7 +67,7 @@ impl<T: Real> Panel<T> {
 
     /// Returns the parts of a run.
     pub fn parts(&self, surface: &Surface<'_, T>) -> impl Iterator<Item = Self> {
-        let count = (self.last - self.piece + 1).div_ceil(PARTS);
+        let count = (self.last - self.piece + 1).div_ceil(MAX_RUNS);
         (self.piece..=self.last).step_by(count).map(move |first| {
             let part = Self::of_pieces(surface, [first, (first + count - 1).min(self.last)]);
             let mut part = Self { before: self.doubt, ..part };
@@ -136,7 +136,7 @@ fn is_cubic<T: Real>(piece: &Piece<'_, T>) -> bool {
     let size = start.slope.abs() + end.slope.abs() + segment.chord.abs();
     let rounding =
         T::of(ROUNDING) * T::epsilon() * (size + (start.y.abs() + end.y.abs()) / segment.width);
-    PLACES.iter().all(|&share| {
+    CUBIC_PLACES.iter().all(|&share| {
         let slope = segment.at(T::of(share))[1];
         let given = piece.curve.slope_at(start.x + T::of(share) * segment.width);
         given.is_some_and(|given| (given - slope).abs() <= rounding)

@@ -35,10 +35,10 @@ const MAX_ROUNDS: usize = 40;
 
 /// Largest number of points for one load by default. Where a load reaches too far for this number,
 /// as between steps of narrow flanks, the points are further apart.
-const MAX_POINTS: usize = 1 << 10;
+const MAX_PROBES: usize = 1 << 10;
 
 /// Largest number of halvings in search of the place where the gap leaves the reach of a load.
-const MAX_HALVES: usize = 60;
+const MAX_REACH_HALVES: usize = 60;
 
 /// Span of x outside the contacts between two points of the survey, and the distance of points
 /// required there.
@@ -333,7 +333,7 @@ impl<T: Real> Survey<T> {
         };
         let known = stretches.iter().filter(|stretch| !stretch.is_missed);
         let points = known.fold(0, |sum: usize, Stretch { x, apart, .. }| {
-            sum.saturating_add(gap.parts(x[1] - x[0], *apart, MAX_POINTS))
+            sum.saturating_add(gap.parts(x[1] - x[0], *apart, MAX_PROBES))
         });
         let evaluations = cost.heights.saturating_add(points);
         let span = Interval { left: first.x[0], right: last.x[1] };
@@ -345,7 +345,7 @@ impl<T: Real> Survey<T> {
 fn spread<T: Real>(found: &mut Vec<Stretch<T>>) {
     let points =
         found.iter().fold(T::zero(), |sum, Stretch { x, apart, .. }| sum + (x[1] - x[0]) / *apart);
-    let times = points / T::count(MAX_POINTS);
+    let times = points / T::count(MAX_PROBES);
     if times > T::one() {
         found.iter_mut().for_each(|stretch| stretch.apart *= times);
         found.retain(|Stretch { x, apart, .. }| x[1] - x[0] > *apart);
@@ -363,7 +363,7 @@ fn within<T: Real>(gap: &Gap<'_, T>, pair: &[Node<T>], x: [T; 2], level: T) -> O
         [false, true] => (x[1], x[1], x[0]),
         [false, false] => return None,
     };
-    for _ in 0..MAX_HALVES {
+    for _ in 0..MAX_REACH_HALVES {
         if (high - low).abs() <= T::of(0.125) * (low - from).abs() {
             break;
         }
@@ -446,7 +446,7 @@ impl<T: Real> Body<T> {
             }
             let between = panel.x();
             let [from, to] = [stretch.x[0].max(between[0]), stretch.x[1].min(between[1])];
-            let count = gap.parts(to - from, stretch.apart, MAX_POINTS);
+            let count = gap.parts(to - from, stretch.apart, MAX_PROBES);
             let ends = [from, to].map(|x| series.parameter(x));
             probes.extend((0..count).map(|j| {
                 let share = (T::count(j) + half) / T::count(count);

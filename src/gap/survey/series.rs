@@ -12,20 +12,20 @@ use crate::{CurvePoint, Real};
 use std::array::from_fn;
 
 /// Number of Chebyshev nodes of a stretch.
-pub(super) const NODES: usize = 8;
+pub(super) const SAMPLES: usize = 8;
 
 /// Number of points of a stretch: one more than the nodes, which the series must meet. A Chebyshev
 /// polynomial that vanishes at all nodes does not vanish there.
-pub(super) const POINTS: usize = NODES + 1;
+pub(super) const TESTED: usize = SAMPLES + 1;
 
 /// Place of the additional point, as t.
 const PROBE: f64 = 0.086;
 
 /// Largest number of steps to the root of `X(t) = x`, each by Newton's rule or a bisection.
-const MAX_STEPS: usize = 60;
+const MAX_ROOT_STEPS: usize = 60;
 
 /// Rounding error of a sum of a series, in units in the last place.
-const ROUNDING: f64 = 32.0;
+const SERIES_ROUNDING: f64 = 32.0;
 
 /// Largest uncertainty that is ascribed to noise, in units in the last place of the ends of a
 /// piece.
@@ -33,7 +33,7 @@ const LARGEST_NOISE: f64 = (1 << 20) as f64;
 
 /// Largest uncertainty of a series by noise, as a multiple of the noise of the heights; likewise
 /// the largest fall of X.
-pub(super) const NOISE: f64 = 8.0;
+pub(super) const MAX_NOISE: f64 = 8.0;
 
 /// Point of a body as a graph over x.
 #[derive(Clone, Copy, Debug)]
@@ -52,10 +52,10 @@ pub(crate) struct Series<T> {
     /// Range of the parameter of the curve, and X at its ends.
     k: [T; 2],
     between: [T; 2],
-    x: [T; NODES + 1],
-    y: [T; NODES + 1],
+    x: [T; SAMPLES + 1],
+    y: [T; SAMPLES + 1],
     /// Points that it is made from, by rising x.
-    pub(super) points: [BodyPoint<T>; NODES],
+    pub(super) points: [BodyPoint<T>; SAMPLES],
     /// Uncertainty of the heights, a length; infinite where a point is not finite.
     pub doubt: T,
     /// True if the uncertainty of the heights is rounding.
@@ -64,22 +64,22 @@ pub(crate) struct Series<T> {
 
 impl<T: Real> Series<T> {
     /// Returns the parameters of the points from which a series on a range of k is made.
-    pub fn parameters([left, right]: [T; 2]) -> [T; POINTS] {
-        let (half, table) = (T::of(0.5), Table::of(NODES));
+    pub fn parameters([left, right]: [T; 2]) -> [T; TESTED] {
+        let (half, table) = (T::of(0.5), Table::of(SAMPLES));
         let (middle, reach) = (half * left + half * right, half * right - half * left);
-        from_fn(|j| middle + reach * T::of(if j < NODES { table.z[j] } else { PROBE }))
+        from_fn(|j| middle + reach * T::of(if j < SAMPLES { table.z[j] } else { PROBE }))
     }
 
     /// Makes the series on a range of k.
-    pub fn new([left, right]: [T; 2], points: &[CurvePoint<T>; POINTS]) -> Self {
+    pub fn new([left, right]: [T; 2], points: &[CurvePoint<T>; TESTED]) -> Self {
         let (zero, reach) = (T::zero(), T::of(0.5) * right - T::of(0.5) * left);
         let x = Primitive::new(points.map(|at| at.x), points.map(|at| at.dx * reach));
         let y = Primitive::new(points.map(|at| at.y), points.map(|at| at.dy * reach));
         let steep =
-            ((points[NODES - 1].y - points[0].y) / (points[NODES - 1].x - points[0].x)).abs();
-        let slopes: [T; NODES] = from_fn(|j| points[j].dy / points[j].dx);
+            ((points[SAMPLES - 1].y - points[0].y) / (points[SAMPLES - 1].x - points[0].x)).abs();
+        let slopes: [T; SAMPLES] = from_fn(|j| points[j].dy / points[j].dx);
         // A point of the series lies next to the curve; its distance along y counts.
-        let missed = (0..POINTS).fold(zero, |most, j| {
+        let missed = (0..TESTED).fold(zero, |most, j| {
             let slope = points[j].dy / points[j].dx;
             let slope = if slope.is_finite() { slope } else { steep };
             most.max((y.missed[j] - slope * x.missed[j]).abs())
@@ -88,17 +88,17 @@ impl<T: Real> Series<T> {
         // The next coefficients of the heights are half those of the rates, divided by their
         // number.
         let rounding = y.rounding + if x.rounding.is_zero() { zero } else { steep * x.rounding };
-        let doubt = missed + error / T::count(NODES);
+        let doubt = missed + error / T::count(SAMPLES);
         let points = from_fn(|j| {
             let along = if slopes[j].is_finite() { slopes[j].abs() } else { zero };
-            let error = T::count(NODES) * missed + y.error + along * x.error;
+            let error = T::count(SAMPLES) * missed + y.error + along * x.error;
             let beyond = error - (y.rounding + along * x.rounding);
             let rate = (points[j].dx * reach).abs();
             let doubt = if beyond > zero { beyond / rate } else { zero };
             BodyPoint { x: points[j].x, y: points[j].y, slope: slopes[j], doubt }
         });
         // Where X stands still between points the curve is unknown.
-        let length = points[NODES - 1].x - points[0].x;
+        let length = points[SAMPLES - 1].x - points[0].x;
         let astray = x.missed.iter().fold(zero, |most, missed| most.max(missed.abs()));
         let known = doubt.is_finite() && astray <= T::of(0.1) * length;
         let is_exact = known && doubt <= rounding;
@@ -129,7 +129,7 @@ impl<T: Real> Series<T> {
         }
         let middle = T::of(0.5) * self.k[0] + T::of(0.5) * self.k[1];
         let noise = Noise::near(piece, middle, evaluations);
-        self.doubt <= T::of(NOISE) * noise.of_height(self.points[NODES / 2].slope)
+        self.doubt <= T::of(MAX_NOISE) * noise.of_height(self.points[SAMPLES / 2].slope)
     }
 
     /// Returns the length of its range of the parameter as a share of the range of another series.
@@ -165,7 +165,7 @@ impl<T: Real> Series<T> {
         let slope = point.dy / point.dx;
         let missed = (point.y - y - slope * (point.x - x)).abs();
         let size = point.y.abs() + (slope * point.x).abs();
-        (missed - T::of(ROUNDING) * T::epsilon() * size).max(T::zero())
+        (missed - T::of(SERIES_ROUNDING) * T::epsilon() * size).max(T::zero())
     }
 
     /// Returns height and slope at x.
@@ -186,7 +186,7 @@ impl<T: Real> Series<T> {
         // Newton's rule squares the error.
         let small = T::of(0.125) * T::epsilon().sqrt();
         let mut more = T::DERIVATIVE_ORDER;
-        for _ in 0..MAX_STEPS {
+        for _ in 0..MAX_ROOT_STEPS {
             let ([at], [rate]) = evaluate(&self.x, &[t]);
             *(if at > x { &mut high } else { &mut low }) = t;
             let newton = t + (x - at) / rate;
@@ -208,9 +208,9 @@ impl<T: Real> Series<T> {
     fn guess(&self, x: T) -> T {
         let (one, [from, to]) = (T::one(), self.between);
         let after = self.points.partition_point(|row| row.x <= x);
-        let place = |i: usize| (T::of(Table::of(NODES).z[i]), self.points[i].x);
+        let place = |i: usize| (T::of(Table::of(SAMPLES).z[i]), self.points[i].x);
         let (start, x0) = after.checked_sub(1).map_or((-one, from), place);
-        let (end, x1) = if after < NODES { place(after) } else { (one, to) };
+        let (end, x1) = if after < SAMPLES { place(after) } else { (one, to) };
         let t = start + (end - start) * ((x - x0) / (x1 - x0));
         if t > -one && t < one { t } else { T::zero() }
     }
@@ -218,9 +218,9 @@ impl<T: Real> Series<T> {
 
 /// Series of one coordinate, from its rates.
 struct Primitive<T> {
-    series: [T; NODES + 1],
+    series: [T; SAMPLES + 1],
     /// Values less the series.
-    missed: [T; POINTS],
+    missed: [T; TESTED],
     /// Size of the last two coefficients of the rates, and of the mismatch at the additional point.
     error: T,
     rounding: T,
@@ -234,23 +234,23 @@ impl<T: Real> Primitive<T> {
         [even - odd, even + odd]
     }
 
-    fn new(at: [T; POINTS], rates: [T; POINTS]) -> Self {
-        let (zero, table) = (T::zero(), Table::of(NODES));
-        let c = table.coefficients(&from_fn::<T, NODES, _>(|j| rates[j]));
+    fn new(at: [T; TESTED], rates: [T; TESTED]) -> Self {
+        let (zero, table) = (T::zero(), Table::of(SAMPLES));
+        let c = table.coefficients(&from_fn::<T, SAMPLES, _>(|j| rates[j]));
         let primitive = primitive(&c);
-        let mut series: [T; NODES + 1] = from_fn(|k| primitive[k]);
-        let places = from_fn(|j| T::of(if j < NODES { table.z[j] } else { PROBE }));
-        let integral: [T; POINTS] = values(&series, &places);
-        let rest: [T; POINTS] = from_fn(|j| at[j] - integral[j]);
-        let mean = rest.iter().fold(zero, |sum, &rest| sum + rest) / T::count(POINTS);
+        let mut series: [T; SAMPLES + 1] = from_fn(|k| primitive[k]);
+        let places = from_fn(|j| T::of(if j < SAMPLES { table.z[j] } else { PROBE }));
+        let integral: [T; TESTED] = values(&series, &places);
+        let rest: [T; TESTED] = from_fn(|j| at[j] - integral[j]);
+        let mean = rest.iter().fold(zero, |sum, &rest| sum + rest) / T::count(TESTED);
         series[0] = mean;
-        let [rate] = values(&c, &[places[NODES]]);
+        let [rate] = values(&c, &[places[SAMPLES]]);
         let size = at.iter().chain(&c).fold(zero, |sum, value| sum + value.abs());
         Self {
             series,
             missed: rest.map(|rest| rest - mean),
-            error: c[NODES - 1].abs() + c[NODES - 2].abs() + (rates[NODES] - rate).abs(),
-            rounding: T::of(ROUNDING) * T::epsilon() * size,
+            error: c[SAMPLES - 1].abs() + c[SAMPLES - 2].abs() + (rates[SAMPLES] - rate).abs(),
+            rounding: T::of(SERIES_ROUNDING) * T::epsilon() * size,
         }
     }
 }

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 /// Number of points to either side of a point from which the scale of the distances there is
 /// estimated.
-const NEIGHBOURS: usize = 10;
+const SCALE_POINTS: usize = 10;
 
 /// Smallest number of points among which an outlier can be found.
 const FEWEST: usize = 12;
@@ -145,8 +145,9 @@ pub(super) fn check_outliers<T: Real>(points: &[[T; 2]], most: T) -> Result<(), 
         floor = floor.max(step.unwrap_or(rounded));
     }
     let mut scale_at = |i: usize| {
-        let start = i.saturating_sub(NEIGHBOURS).min(all.len().saturating_sub(2 * NEIGHBOURS + 1));
-        let around = &all[start..(start + 2 * NEIGHBOURS + 1).min(all.len())];
+        let start =
+            i.saturating_sub(SCALE_POINTS).min(all.len().saturating_sub(2 * SCALE_POINTS + 1));
+        let around = &all[start..(start + 2 * SCALE_POINTS + 1).min(all.len())];
         T::of(BY_MEDIAN) * median(around, &mut sorted).max(everywhere)
     };
     let mut worst: Option<(usize, T)> = None;

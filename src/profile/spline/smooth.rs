@@ -30,10 +30,10 @@ const FIRST_SPANS: usize = 8;
 const RESOLVED: f64 = 1.5;
 
 /// Least reach of the smoothing, in spans: the curve follows the points.
-const LEAST_REACH: f64 = 0.05;
+const LEAST_SMOOTHING: f64 = 0.05;
 
 /// Ratio of successive reaches tried, for the most likely and for the least of the likely ones.
-const STEP: f64 = 1.5;
+const REACH_RATIO: f64 = 1.5;
 const FINE_STEP: f64 = 1.05;
 
 /// Rise of -2 ln L from its minimum within which a reach is likely: 95 % of the probability, by χ²
@@ -44,7 +44,7 @@ const LIKELY: f64 = 3.84;
 const SECTIONS: usize = 12;
 
 /// Number of parameters of a curve without penalty, a parabola.
-const FREE: usize = 3;
+const FREE_PARAMETERS: usize = 3;
 
 /// Third derivative in a span, by its four coefficients and in units of the span.
 const THIRD: [f64; 4] = [-1.0, 3.0, -3.0, 1.0];
@@ -83,7 +83,7 @@ impl<T: Real> Triangle<T> {
     /// Returns the coefficients.
     fn solve(&self) -> Vec<T> {
         let count = self.rows.len();
-        let mut all = vec![T::zero(); count + FREE];
+        let mut all = vec![T::zero(); count + FREE_PARAMETERS];
         for (i, row) in self.rows.iter().enumerate().rev() {
             let known = row[4] - row[1] * all[i + 1] - row[2] * all[i + 2] - row[3] * all[i + 3];
             all[i] = known / row[0];
@@ -117,7 +117,7 @@ struct Fitting<T> {
 impl<T: Real> Fitting<T> {
     /// Takes points by their place, from 0 to 1, and their height.
     fn new(points: &[[T; 2]], spans: usize) -> Self {
-        let mut data = Triangle::new(spans + FREE);
+        let mut data = Triangle::new(spans + FREE_PARAMETERS);
         for &[share, y] in points {
             let (start, t) = split(share, spans);
             let [a, b, c, d] = values(t);
@@ -133,7 +133,8 @@ impl<T: Real> Fitting<T> {
 
     fn penalised(&self, alpha: T) -> Triangle<T> {
         let [a, b, c, d] = THIRD.map(|third| alpha.sqrt() * T::of(third));
-        let mut all = Triangle { rest: self.data.rest, ..Triangle::new(self.spans + FREE) };
+        let mut all =
+            Triangle { rest: self.data.rest, ..Triangle::new(self.spans + FREE_PARAMETERS) };
         for (i, &row) in self.data.rows.iter().enumerate() {
             all.insert(i, row);
             if i < self.spans {
@@ -150,16 +151,16 @@ impl<T: Real> Fitting<T> {
         let roots = rows.iter().fold(T::zero(), |sum, row| sum + row[0].abs().ln());
         // Heights are 1 at most: less than this is rounding.
         let rest = rest.max(T::epsilon().powi(2));
-        T::count(self.points - FREE) * rest.ln() + T::of(2.0) * roots
+        T::count(self.points - FREE_PARAMETERS) * rest.ln() + T::of(2.0) * roots
             - T::count(self.spans) * alpha.ln()
     }
 
     /// Finds the least of the likely reaches and the most likely, on a grid and then by golden
     /// section in its logarithm.
     fn reaches(&self) -> [T; 2] {
-        let [step, fine] = [STEP, FINE_STEP].map(T::of);
+        let [step, fine] = [REACH_RATIO, FINE_STEP].map(T::of);
         let most = T::count(self.spans);
-        let mut reach = T::of(LEAST_REACH);
+        let mut reach = T::of(LEAST_SMOOTHING);
         let (mut best, mut least) = (reach, self.unlikelihood(reach));
         while reach < most {
             reach = (reach * step).min(most);
@@ -187,7 +188,7 @@ impl<T: Real> Fitting<T> {
         let best = (T::of(0.5) * (from + to)).exp();
         let allowed = found[0].min(found[1]) + T::of(LIKELY);
         let mut low = best;
-        while low > T::of(LEAST_REACH) && self.unlikelihood(low / fine) <= allowed {
+        while low > T::of(LEAST_SMOOTHING) && self.unlikelihood(low / fine) <= allowed {
             low /= fine;
         }
         [low, best]
@@ -229,7 +230,7 @@ impl<T: Real> Smooth<T> {
         let spans = fitting.spans;
         let [triangle, best] = reaches.map(|reach| fitting.penalised(fitting.alpha(reach)));
         let span = length / T::count(spans);
-        let noise = size * (best.rest / T::count(points.len() - FREE)).sqrt();
+        let noise = size * (best.rest / T::count(points.len() - FREE_PARAMETERS)).sqrt();
         let knot = |(i, c): (usize, &[T])| {
             let height = size * ((c[0] + T::of(4.0) * c[1] + c[2]) / T::of(6.0));
             let line = start + (end - start) * (T::count(i) / T::count(spans));
@@ -253,7 +254,7 @@ impl<T: Real> Smooth<T> {
     /// Returns the standard deviation of `Σ wᵢ dY/dX(xᵢ)`.
     pub fn slope_deviation(&self, x: &[T], weights: &[T]) -> T {
         let [from, to] = self.ends;
-        let mut sums = vec![T::zero(); self.spans + FREE];
+        let mut sums = vec![T::zero(); self.spans + FREE_PARAMETERS];
         for (&x, &weight) in x.iter().zip(weights) {
             let (start, t) = split((x - from) / (to - from), self.spans);
             for (sum, slope) in sums[start..].iter_mut().zip(slopes(t)) {

@@ -33,7 +33,7 @@
 use super::half_angle::{HalfAngle, Sines};
 use super::near_far_sum::{Distance, NearFarSum, Seen};
 use super::panel::{Panel, Series, across, within};
-use super::panel_set::FINEST;
+use super::panel_set::LEAST_ULPS;
 use super::reexpansion::{PanelAngles, reexpanded};
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, by_size, second_kind, size_for, values};
 use crate::real::fma;
@@ -44,7 +44,7 @@ pub(super) const LANES: usize = 16;
 
 /// Largest number of changes from one panel to the next, each with its logarithm; beyond it, groups
 /// of panels take less time.
-const MAX_CHANGES: usize = 64;
+const MAX_LOGARITHMS: usize = 64;
 
 /// Distances of points to the two edges, and `sqrt((x + b)(a - x))`.
 pub(super) struct Edges<T> {
@@ -128,7 +128,7 @@ impl<T: Real> HilbertTransform<T> {
         let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         let kink = size * rounding + T::of(64.0) * error;
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
-        self.is_far = panels.len() > MAX_CHANGES
+        self.is_far = panels.len() > MAX_LOGARITHMS
             || !(self.reexpanded(panels, over, on) || self.merged(panels, on));
         if self.is_far {
             self.far.set(panels, on, Seen::Inside);
@@ -188,7 +188,7 @@ impl<T: Real> HilbertTransform<T> {
         let is_same = |whole: &Panel<T>, missed: T, _| {
             (0..T::COMPONENTS).all(|part| {
                 let sizes = whole.coefficients().iter().map(|a| a.component(part).abs());
-                let rounding = || T::of(FINEST) * T::epsilon() * sizes.fold(T::zero(), T::max);
+                let rounding = || T::of(LEAST_ULPS) * T::epsilon() * sizes.fold(T::zero(), T::max);
                 missed.component(part).abs() <= if part == 0 { slope } else { rounding() }
             })
         };

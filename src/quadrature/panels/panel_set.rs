@@ -13,16 +13,16 @@ use crate::gap::{Cost, Gap, Guides, SampleCache, Sampler};
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, size_for};
 use crate::profile::Noise;
 use crate::{ContactError, Ends, Interval, Real, Side, real::same};
-use candidate::{Candidate, FALL_OF_A_ROOT, LEVELS_OF_A_WAVE, MAX_LEVELS, is_long};
+use candidate::{Candidate, FALL_OF_A_ROOT, LEVELS_OF_A_WAVE, MAX_AT_JUMP, is_long};
 use num_traits::ToPrimitive;
 use sampling::SampledBody;
 
 /// Fewest nodes of a panel after the first estimate. On a span a little wider than a contact, the
 /// outermost of eight nodes lie beyond the limits; of four they would not.
-pub(super) const LEAST: usize = 8;
+pub(super) const FEWEST: usize = 8;
 
 /// Lowest tolerance, in units in the last place.
-pub(super) const FINEST: f64 = 16.0;
+pub(super) const LEAST_ULPS: f64 = 16.0;
 
 /// Most splits of a span between two breakpoints.
 const MAX_SPLITS: usize = 4096;
@@ -106,7 +106,7 @@ impl<T: Real> PanelSet<T> {
             measured: 0,
             size: T::zero(),
             least: T::one() / T::zero(),
-            initial: LEAST,
+            initial: FEWEST,
             coarse: false,
             tolerance,
             cost: Cost::default(),
@@ -122,7 +122,7 @@ impl<T: Real> PanelSet<T> {
     /// Forgets the panels; keeps the curves' last points if the bodies are the same.
     pub fn clear(&mut self, same_bodies: bool) {
         self.panels.clear();
-        (self.is_cut_up, self.initial) = (false, LEAST);
+        (self.is_cut_up, self.initial) = (false, FEWEST);
         (self.size, self.least) = (T::zero(), T::one() / T::zero());
         self.derivative_sizes.clear();
         if !same_bodies {
@@ -256,7 +256,7 @@ impl<T: Real> PanelSet<T> {
         let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
         let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
         let Interval { left, right } = further(have.left - more(&first), have.right + more(&last));
-        let enough = |panel: &Panel<T>| size_for(panel.length / 2).max(LEAST);
+        let enough = |panel: &Panel<T>| size_for(panel.length / 2).max(FEWEST);
         // A feature beyond the last node of the outermost panel shows at the new neighbour, unless
         // a breakpoint lies between them.
         if right > have.right {
@@ -276,7 +276,7 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// Covers an interval alone, with [`LEAST`] nodes or more between two breakpoints.
+    /// Covers an interval alone, with [`FEWEST`] nodes or more between two breakpoints.
     pub fn sample_anew(
         &mut self,
         gap: &Gap<'_, T>,
@@ -383,7 +383,7 @@ impl<T: Real> PanelSet<T> {
             let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
             let apart = |before: &Panel<T>| !self.meets(before, &trial.panel, trial.allowed);
             if let Some(before) = before.filter(apart) {
-                let finer = trial.level < MAX_LEVELS
+                let finer = trial.level < MAX_AT_JUMP
                     && trial.may_be_halved()
                     && (is_long(trial.panel.x, self.noise) || is_long(before.x, self.noise));
                 if finer && splits < MAX_SPLITS && !self.coarse {
@@ -427,7 +427,7 @@ impl<T: Real> PanelSet<T> {
 
     /// Tells whether the tolerance is not the lowest.
     fn is_loose(&self) -> bool {
-        self.tolerance > T::of(FINEST) * T::epsilon()
+        self.tolerance > T::of(LEAST_ULPS) * T::epsilon()
     }
 
     /// Tells whether the coefficients of a panel are noise, not a wave: on a small part of the

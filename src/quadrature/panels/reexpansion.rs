@@ -11,7 +11,7 @@ use crate::{Interval, Real};
 
 /// Largest sum of the coefficients over the contact, in units of the largest slope; a larger sum
 /// would cost digits.
-const MAX_GROWTH: f64 = 16.0;
+const MAX_SUM: f64 = 16.0;
 
 /// Part of a contact on one panel.
 pub(super) struct PanelAngles<'a, T> {
@@ -52,7 +52,7 @@ pub(super) fn reexpanded<T: Real>(
         ]
     };
     let slopes = (0..panels.len()).flat_map(ends_of);
-    let most_bulk = T::of(MAX_GROWTH) * slopes.fold(zero, |max, slope| max.max(slope.abs()));
+    let most_bulk = T::of(MAX_SUM) * slopes.fold(zero, |max, slope| max.max(slope.abs()));
     let mut start = HalfAngle::of(on, on.left);
     let mut left = [zero; MAX_SIZE + 2];
     left[0] = T::pi();

@@ -19,7 +19,7 @@ use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, Table};
 use std::ops::Range;
 
 /// Number of points that stand for a group.
-const POINTS: usize = 16;
+const PROXIES: usize = 16;
 
 /// Distance of a place from the middle of a group, in half-lengths, from which on these suffice:
 /// coefficient n of `1/(t - x)` is 9.9⁻ⁿ of the first.
@@ -39,7 +39,7 @@ pub(super) struct Group<T> {
     left: T,
     half: T,
     /// Weights `W_m`.
-    weights: [T; POINTS],
+    weights: [T; PROXIES],
     /// Sum of the errors of the panels, each times its length.
     error: T,
     /// Number of the next group outside this one.
@@ -66,7 +66,7 @@ pub(super) fn group<T: Real>(
         let [from, to] = part.reached();
         near = [near[0].min(from), near[1].max(to)];
     }
-    let (number, weights) = (groups.len(), [T::zero(); POINTS]);
+    let (number, weights) = (groups.len(), [T::zero(); PROXIES]);
     let (parts_of, next) = (numbers.clone(), number + 1);
     groups.push(Group { parts: parts_of, near, left, half, weights, error, next });
     let mut sums = GroupMoments::new(left, half);
@@ -83,7 +83,7 @@ pub(super) fn group<T: Real>(
             group(groups, parts, numbers, nodes, is_far);
             let half = &groups[half];
             let points = half.points();
-            let nodes: [_; POINTS] = std::array::from_fn(|m| [points[m], half.weights[m]]);
+            let nodes: [_; PROXIES] = std::array::from_fn(|m| [points[m], half.weights[m]]);
             for nodes in nodes.as_chunks().0 {
                 sums.add(half.left, nodes);
             }
@@ -91,7 +91,7 @@ pub(super) fn group<T: Real>(
     }
     let next = groups.len();
     let group = &mut groups[number];
-    (group.weights, group.next) = (Table::of(POINTS).shares(&sums.values()), next);
+    (group.weights, group.next) = (Table::of(PROXIES).shares(&sums.values()), next);
 }
 
 /// Nodes treated together: numbers of nodes are multiples of this.
@@ -101,13 +101,13 @@ const W: usize = 8;
 pub(super) struct GroupMoments<T> {
     left: T,
     by_half: T,
-    lanes: [[T; W]; POINTS],
+    lanes: [[T; W]; PROXIES],
 }
 
 impl<T: Real> GroupMoments<T> {
     /// Prepares the sums for a group with this left end and half of its length.
     pub fn new(left: T, half: T) -> Self {
-        Self { left, by_half: T::one() / half, lanes: [[T::zero(); W]; POINTS] }
+        Self { left, by_half: T::one() / half, lanes: [[T::zero(); W]; PROXIES] }
     }
 
     /// Adds nodes, given by their distances from `from`.
@@ -124,15 +124,15 @@ impl<T: Real> GroupMoments<T> {
         }
     }
 
-    pub fn values(&self) -> [T; POINTS] {
+    pub fn values(&self) -> [T; PROXIES] {
         self.lanes.map(|lanes| lanes.into_iter().fold(T::zero(), |sum, lane| sum + lane))
     }
 }
 
 impl<T: Real> Group<T> {
     /// Returns the points that stand for the group, as distances from its left end.
-    fn points(&self) -> [T; POINTS] {
-        let z = &Table::of(POINTS).z;
+    fn points(&self) -> [T; PROXIES] {
+        let z = &Table::of(PROXIES).z;
         std::array::from_fn(|m| self.half * T::of(1.0 + z[m]))
     }
 
@@ -161,15 +161,15 @@ impl<T: Real> Group<T> {
 
     /// Returns the cosine series of g and its number of terms, if the group is a whole contact.
     pub fn cosines(&self) -> (Coeffs<T>, usize) {
-        let (mut series, share) = ([T::zero(); MAX_SIZE], T::count(POINTS) * T::frac_1_pi());
-        series[..POINTS].copy_from_slice(&Table::of(POINTS).coefficients(&self.weights));
-        (series.map(|a| share * a), POINTS)
+        let (mut series, share) = ([T::zero(); MAX_SIZE], T::count(PROXIES) * T::frac_1_pi());
+        series[..PROXIES].copy_from_slice(&Table::of(PROXIES).coefficients(&self.weights));
+        (series.map(|a| share * a), PROXIES)
     }
 
     /// Returns `∫ g(t)/(t - x) dθ`.
     pub fn integral(&self, x: T) -> T {
         let (offset, points) = (self.left - x, self.points());
-        let terms: [T; POINTS] = std::array::from_fn(|m| self.weights[m] / (offset + points[m]));
+        let terms: [T; PROXIES] = std::array::from_fn(|m| self.weights[m] / (offset + points[m]));
         terms.into_iter().fold(T::zero(), |sum, term| sum + term)
     }
 }

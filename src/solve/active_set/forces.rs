@@ -16,7 +16,7 @@ const NEIGHBOURS: usize = 32;
 const TOLERANCE: f64 = 1e-4;
 
 /// Largest number of steps of conjugate gradients for one system.
-const MAX_STEPS: usize = 300;
+const MAX_GRADIENTS: usize = 300;
 
 impl<T: Real> ActiveSet<T> {
     /// Closes the gap in the loaded cells; returns the uncertainty of the forces.
@@ -75,7 +75,7 @@ impl<T: Real> ActiveSet<T> {
             on.iter().zip(sunk).map(|(&i, sunk)| -sunk - self.rise[i]).collect();
         let (mut next, mut size) = balance.step(&mut missed);
         let (mut way, mut steps) = (next.clone(), 0);
-        while steps < MAX_STEPS {
+        while steps < MAX_GRADIENTS {
             steps += 1;
             if dot(&next, &next) <= T::of(TOLERANCE * TOLERANCE) * dot(&forces, &forces) {
                 break;

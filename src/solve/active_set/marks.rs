@@ -4,13 +4,13 @@ use super::{ActiveSet, Coarse};
 use crate::{Ends, Interval, Real};
 
 /// Least width of the cells at a narrow gap in a contact, as a share of the contact.
-const FINEST: f64 = 1.0 / 40.0;
+const FINEST_CELL: f64 = 1.0 / 40.0;
 
 /// Least width of a cell that is cut for known heights, as a share of their spacing.
 const LEAST_CUT: f64 = 1.0 / 16.0;
 
 /// Least gap between two runs, as a share of the wider one; closer runs are one.
-const LEAST_GAP: f64 = 1e-3;
+const LEAST_GAP_OF_CELLS: f64 = 1e-3;
 
 impl<T: Real> ActiveSet<T> {
     /// Returns the first and last cell of each run of loaded cells.
@@ -41,7 +41,7 @@ impl<T: Real> ActiveSet<T> {
             for i in from + 1..to {
                 let [before, at, after] = [i - 1, i, i + 1].map(|i| self.cells[i].pressure());
                 let deep = T::of(3.0) * at < before.min(after);
-                if deep && self.cells[i].width() > T::of(FINEST) * width(run) {
+                if deep && self.cells[i].width() > T::of(FINEST_CELL) * width(run) {
                     mark(i - 1, i + 1);
                 }
             }
@@ -50,7 +50,7 @@ impl<T: Real> ActiveSet<T> {
             let [left, right] = [pair[0], pair[1]];
             let (from, to) = (left[1] + 1, right[0] - 1);
             let narrower = width(left).min(width(right));
-            if from == to && self.cells[from].width() > T::of(FINEST) * narrower {
+            if from == to && self.cells[from].width() > T::of(FINEST_CELL) * narrower {
                 mark(from - 1, to + 1);
             }
         }
@@ -172,7 +172,7 @@ impl<T: Real> ActiveSet<T> {
         // Where the pressure nearly vanishes, rounding parts cells: runs this close are one.
         intervals.dedup_by(|next, on| {
             let wider = (next.right - next.left).max(on.right - on.left);
-            let one = next.left - on.right < T::of(LEAST_GAP) * wider;
+            let one = next.left - on.right < T::of(LEAST_GAP_OF_CELLS) * wider;
             if one {
                 on.right = next.right;
             }

@@ -15,7 +15,7 @@ use std::sync::LazyLock;
 const MAX_COLUMNS: usize = 320;
 
 /// Largest number of cells in a group that is not halved, with more cells than `MAX_COLUMNS`.
-const MAX_UNDIVIDED: usize = 16;
+const MAX_CELLS_UNDIVIDED: usize = 16;
 
 /// Numbers of moments of the forces of a group, and of places in it: both leave errors of about
 /// 1e-5.
@@ -204,7 +204,7 @@ impl<T: Real> Potential<T> {
     fn group(&mut self, [from, to]: [usize; 2]) -> usize {
         let half = T::of(0.5);
         let middle = usize::midpoint(from, to);
-        let is_divided = to - from > MAX_UNDIVIDED;
+        let is_divided = to - from > MAX_CELLS_UNDIVIDED;
         let halves =
             is_divided.then(|| [[from, middle], [middle, to]].map(|part| self.group(part)));
         let (first, last) = (self.cells[from], self.cells[to - 1]);

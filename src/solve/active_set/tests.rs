@@ -307,6 +307,6 @@ fn no_scene_is_a_trap() {
     for load in [1e-6, 1e-2, 1.0] {
         let known = heights(1000, [-1.0, 1.0], noise);
         let found = set(&Scene { known: &known, ..scene(load, [-1.0, 1.0]) }, noise);
-        assert!(found.is_ok_and(|found| found.cells.len() <= MAX_CELLS), "{load}");
+        assert!(found.is_ok_and(|found| found.cells.len() <= MAX_CUT_CELLS), "{load}");
     }
 }

@@ -44,7 +44,7 @@ use crate::{Ends, Interval, Real, Side};
 use nalgebra::{Matrix2, Vector2};
 
 /// Longest step that is taken, in half-widths: a longer one leads nowhere.
-const MAX_STEP: f64 = 1e9;
+const LONGEST_STEP: f64 = 1e9;
 
 /// Returns an interval with its limits moved by steps in half-widths, given the load as a share of
 /// the carried load. The half-width changes as its square would, by a factor of 1/33 to 4. The
@@ -228,7 +228,7 @@ impl<T: Real> Linearised<T> {
         let inverse = self.matrix.try_inverse()?;
         let [left, right, force] = self.solve(&inverse, self.scale, self.residual);
         let size = (right - left).abs() + (right + left).abs();
-        let leads = size <= T::of(MAX_STEP) && force.is_finite();
+        let leads = size <= T::of(LONGEST_STEP) && force.is_finite();
         let (lean, unit, share) = (self.lean(), self.scale, T::one());
         let limits = [left, right];
         leads.then_some(Step { from, load, carried, lean, inverse, unit, limits, force, share })

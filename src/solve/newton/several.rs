@@ -22,7 +22,7 @@ use crate::solution::ContactState;
 use crate::{Ends, Interval, Real, Side};
 
 /// Steps before the search is given up.
-const MAX_STEPS: usize = 60;
+const MAX_NEWTON_STEPS: usize = 60;
 
 /// Largest number of steps in a row in which the same width is cut, each time to a smaller share,
 /// or the same end is passed. Then that contact or gap is taken not to exist: a gap at a kink, or a
@@ -164,7 +164,7 @@ impl<T: Real> NewtonSeveral<T> {
         self.cut.clear();
         self.cut.resize(2 * self.on.len() - 1, 0);
         let mut turned = conditions.gap.tilted(self.tilt);
-        for _ in 0..MAX_STEPS {
+        for _ in 0..MAX_NEWTON_STEPS {
             self.assemble(several, &turned, conditions)?;
             self.shorten();
             if !self.step.iter().all(|step| step.is_finite()) {

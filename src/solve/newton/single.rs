@@ -22,7 +22,7 @@ const MAX_TRIALS: [usize; 2] = [16, 200];
 const MAX_LONG: usize = 8;
 
 /// Least share of a step that is taken.
-const LEAST_SHARE: f64 = 1e-12;
+const LEAST_STEP_SHARE: f64 = 1e-12;
 
 /// Longest last step of a guess, in half-widths.
 const MAX_GUESS_STEP: f64 = 0.03;
@@ -125,7 +125,8 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
     /// Halves the last step if the next one shows that it led too far.
     fn shortens(&self, trial: &mut Trial<T>, next: &Linearised<T>, step: Option<&Step<T>>) -> bool {
         let Some(last) = &mut trial.last else { return false };
-        if last.share <= T::of(LEAST_SHARE) || step.is_some() && !last.grew_to(next, trial.on) {
+        if last.share <= T::of(LEAST_STEP_SHARE) || step.is_some() && !last.grew_to(next, trial.on)
+        {
             return false;
         }
         last.share *= T::of(0.5);

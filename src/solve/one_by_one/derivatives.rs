@@ -11,7 +11,7 @@ use crate::solve::equations::Equations;
 use crate::{ContactError, Ends, Interval, Real, SolveError};
 
 /// Number of steps; each gains three to five digits.
-const STEPS: usize = 6;
+const DERIVATIVE_STEPS: usize = 6;
 
 /// Step of the differences, as a share of the half-width.
 const STEP_SHARE: f64 = 1e-5;
@@ -64,7 +64,7 @@ pub(super) fn differentiate<T: Real>(
     let by_other = if both { rate(missed(moved(start, [zero, share]))?) } else { [zero, T::one()] };
     let determinant = by_one[0] * by_other[1] - by_other[0] * by_one[1];
     let mut on = start;
-    for _ in 0..STEPS {
+    for _ in 0..DERIVATIVE_STEPS {
         let [first, second] = missed(on)?;
         let one = (by_other[0] * second - by_other[1] * first) / determinant;
         let other = (by_one[1] * first - by_one[0] * second) / determinant;

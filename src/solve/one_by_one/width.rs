@@ -8,10 +8,10 @@ use crate::{ContactError, Ends, Interval, Real};
 
 /// Widths tried before the search gives up bracketing the load: enough to halve the largest number
 /// down to the smallest.
-const MAX_WIDTHS: usize = 2200;
+const MAX_TRIED_WIDTHS: usize = 2200;
 
 /// Largest exponent of the power of the width that the load is taken to follow.
-const STEEPEST: f64 = 40.0;
+const STEEPEST_LOAD: f64 = 40.0;
 
 impl<T: Real> NestedSearch<'_, T> {
     /// Finds the half-width at which the spread vanishes, starting from a guess.
@@ -43,7 +43,7 @@ impl<T: Real> NestedSearch<'_, T> {
             (None, None);
         let mut half_width = guess.max(least * T::of(1.5)).min(most * half);
         let mut next_width = NextWidth::new();
-        for _ in 0..MAX_WIDTHS {
+        for _ in 0..MAX_TRIED_WIDTHS {
             let (trial, is_pinned) = match (self.centre(half_width)?, narrow) {
                 (Centred::At(trial), _) => (trial, self.is_at_end(trial.on)),
                 (Centred::Adrift(_), _) => {
@@ -163,7 +163,7 @@ impl<T: Real> NextWidth<T> {
         if let Some([last, asked]) = self.before.replace([half_width, growth]) {
             let seen = T::of(-2.0) * (growth / asked).ln() / (half_width / last).ln();
             if seen > T::of(0.5) {
-                self.exponent = seen.min(T::of(STEEPEST));
+                self.exponent = seen.min(T::of(STEEPEST_LOAD));
             }
         }
         let pull = growth.powf(T::of(2.0) / self.exponent);

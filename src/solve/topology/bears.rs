@@ -31,7 +31,7 @@ const FIRST_STEP: f64 = 1.0 / 64.0;
 const MAX_LOADS: usize = 100;
 
 /// Halvings of the way from the middle of the bodies to a place where the load cannot act.
-const MAX_HALVES: usize = 14;
+const MAX_PLACE_HALVES: usize = 14;
 
 /// Share of the bodies left beyond a contact that cannot be moved any further.
 const LEAST_LEFT: f64 = 0.01;
@@ -100,7 +100,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         };
         let (mut reached, mut beyond) = (half * ends.left + half * ends.right, at);
         let mut found = find(reached)?;
-        for _ in 0..MAX_HALVES {
+        for _ in 0..MAX_PLACE_HALVES {
             let at = half * reached + half * beyond;
             match find(at) {
                 Some(nearer) => (reached, found) = (at, nearer),

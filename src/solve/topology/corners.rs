@@ -29,14 +29,14 @@ use crate::{ContactError, Edge, Ends, Interval, Real, Side};
 
 /// Largest distance of a limit from a corner that may hold it, as a share of the half-width: that
 /// of limits by cells.
-const NEAR: f64 = 0.2;
+const NEAR_CORNER: f64 = 0.2;
 
 /// Largest d, as a share of the half-width, by the pressure of a flat, for which a corner is tried:
 /// beyond, the limit finds its place by itself.
 const SHARP: f64 = 0.1;
 
 /// Distance beyond a corner within which the gap opens so far, as a share of the half-width.
-const SHORT: f64 = 1e-4;
+const SHORT_WALL: f64 = 1e-4;
 
 /// Share of a contact's half-width by which a limit leaves a corner inward.
 const STEP_INWARD: f64 = 0.01;
@@ -45,7 +45,7 @@ const STEP_INWARD: f64 = 0.01;
 const TOGETHER: f64 = 0.01;
 
 /// Doublings of √d from its least value, and halvings of its logarithm after them: a start.
-const MAX_DOUBLINGS: usize = 40;
+const MAX_ROOT_DOUBLINGS: usize = 40;
 const HALVINGS: usize = 5;
 
 /// Breakpoint on one side of a contact, with the slope of the gap on its inner side.
@@ -164,7 +164,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         side: Side,
         mean: T,
     ) -> Result<Option<T>, ContactError<T>> {
-        let (range, near) = (self.contact.gap.range(), T::of(NEAR) * on.half_width());
+        let (range, near) = (self.contact.gap.range(), T::of(NEAR_CORNER) * on.half_width());
         let (x, outward) = (on[side], outward::<T>(side));
         let around = Interval { left: (x - near).max(range[0]), right: (x + near).min(range[1]) };
         let inside = on[side.other()];
@@ -179,7 +179,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                     break;
                 }
             }
-            let reach = T::of(SHORT) * on.half_width();
+            let reach = T::of(SHORT_WALL) * on.half_width();
             if self.steepest_beyond(&corner, &corners[i + 1..], reach)? > least_rise(mean) {
                 return Ok(Some(z));
             }
@@ -200,7 +200,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     pub(super) fn has_corners(&mut self) -> Result<bool, ContactError<T>> {
         let Ends { left, right } = self.contact.ends();
         let mean = self.conditions.load() / self.contact.kappa / (right - left);
-        let (on, reach) = (Interval { left, right }, T::of(0.5 * SHORT) * (right - left));
+        let (on, reach) = (Interval { left, right }, T::of(0.5 * SHORT_WALL) * (right - left));
         for side in Side::BOTH {
             let corners = self.breakpoints(on, side);
             for (i, &z) in corners.iter().enumerate() {
@@ -386,7 +386,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         // No wall is steeper: d is at least as large.
         let mut low = (due / (steepest + steepest)).min(most);
         let (mut high, mut before) = (low, T::zero());
-        for _ in 0..MAX_DOUBLINGS {
+        for _ in 0..MAX_ROOT_DOUBLINGS {
             let share = share_at(high)?;
             if high >= most || share >= T::one() {
                 break;

@@ -22,7 +22,7 @@ use crate::{ContactError, Edge, Ends, Interval, Real, Side, SolveError};
 
 /// Largest uncertainty of heights, as a share of F/κ, to show by themselves where the bodies
 /// touch: with 400 contacts a twelfth of the load of one.
-const MAX_UNCERTAINTY: f64 = 2e-4;
+const MAX_CELL_UNCERTAINTY: f64 = 2e-4;
 
 /// Doublings of the cells: 2 112 of them separate contacts a thousandth of the bodies apart.
 const MAX_DOUBLINGS: usize = 6;
@@ -253,7 +253,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let (gap, ends) = (&self.contact.gap, self.contact.ends());
         let Work { workspace, cost, .. } = &mut *self.work;
         workspace.take(gap, cost)?;
-        workspace.look.refine(gap, asked_by(conditions), T::of(MAX_UNCERTAINTY), cost)?;
+        workspace.look.refine(gap, asked_by(conditions), T::of(MAX_CELL_UNCERTAINTY), cost)?;
         let Workspace { look, newton, cell_work, .. } = &mut **workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
         let turned = look.heights(gap);

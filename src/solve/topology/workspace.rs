@@ -9,7 +9,7 @@ use crate::solution::Report;
 use crate::{ContactError, Interval, Real};
 
 /// Largest uncertainty of heights where the bodies may touch, as a share of F/κ, for a start.
-const MAX_UNCERTAINTY: f64 = 0.25;
+const MAX_START_UNCERTAINTY: f64 = 0.25;
 
 /// State that a search needs besides samples, kept from one solve to the next.
 #[derive(Clone)]
@@ -101,7 +101,7 @@ impl<T: Real> Workspace<T> {
         cost: &mut Cost,
     ) -> Result<&Survey<T>, ContactError<T>> {
         self.take(gap, cost)?;
-        self.look.refine(gap, asked, T::of(MAX_UNCERTAINTY), cost)?;
+        self.look.refine(gap, asked, T::of(MAX_START_UNCERTAINTY), cost)?;
         Ok(&self.look)
     }
 

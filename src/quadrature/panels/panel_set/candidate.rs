@@ -5,9 +5,9 @@ use crate::profile::Noise;
 use crate::quadrature::panels::Panel;
 
 /// Most halvings of a span next to a jump: the rest is then too short to count in any integral.
-pub(super) const MAX_LEVELS: usize = 110;
+pub(super) const MAX_AT_JUMP: usize = 110;
 
-/// Share of the error that a half may keep if halving is to go on beyond [`MAX_LEVELS`]: next to a
+/// Share of the error that a half may keep if halving is to go on beyond [`MAX_AT_JUMP`]: next to a
 /// root of high order, as in the slope of `|x|^(11/10)`, the pressure still depends on the rest.
 pub(super) const FALL_OF_A_ROOT: f64 = 0.98;
 
@@ -53,7 +53,7 @@ impl<T: Real> Candidate<T> {
         } else if self.falls {
             LEVELS_OF_A_ROOT
         } else {
-            MAX_LEVELS
+            MAX_AT_JUMP
         };
         self.level < most
     }

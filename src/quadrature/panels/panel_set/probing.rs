@@ -17,7 +17,7 @@ use crate::{ContactError, Interval, Real};
 const SPACING: f64 = 6.0;
 
 /// Allowed error of a panel at a probed place, in units of the panel's uncertainty.
-const MAX_MISMATCH: f64 = 32.0;
+const MAX_PROBE_ERROR: f64 = 32.0;
 
 /// Largest offset of a point from its place, as a share of the distance to the nearest node, and of
 /// the distance between places.
@@ -25,7 +25,7 @@ const OFF_NODE: f64 = 0.1;
 const OFF_PLACE: f64 = 0.25;
 
 /// Most points per node of a panel by default, however long the panel is outside the contact.
-const MAX_PARTS: usize = 1 << 10;
+const MAX_A_NODE: usize = 1 << 10;
 
 impl<T: Real> PanelSet<T> {
     /// Samples slopes between the nodes of the panels of a contact where a narrow feature has room,
@@ -71,7 +71,7 @@ impl<T: Real> PanelSet<T> {
         let mut known = i - usize::from(i > 0 && !gap.is_breakpoint(left));
         let room = T::of(OFF_PLACE) * apart;
         let has_room = |x: &T| *x > panel.x[0] + room && *x < end - room;
-        self.initial = super::LEAST;
+        self.initial = super::FEWEST;
         for right in [x - apart, x, x + apart].into_iter().filter(has_room) {
             self.sample(gap, Interval { left, right }, known, None)?;
             (left, known) = (right, self.panels.len() - 1);
@@ -92,7 +92,7 @@ impl<T: Real> PanelSet<T> {
         apart: T,
     ) -> Result<Option<T>, ContactError<T>> {
         let spacing = T::pi() * panel.half() / T::count(panel.n);
-        let parts = gap.parts(spacing, apart, MAX_PARTS);
+        let parts = gap.parts(spacing, apart, MAX_A_NODE);
         for part in 1..parts {
             gap.check_budget(self.spent + self.cost, 1, 0, on)?;
             let missed =
@@ -129,7 +129,7 @@ impl<T: Real> PanelSet<T> {
         let steepest = (0..N).fold(T::zero(), |most, i| most.max(lower[i].abs() + upper[i].abs()));
         let least = (self.tolerance * self.size).max(T::epsilon() * steepest);
         // Both the place and the nodes are rounded.
-        let allowed = T::of(MAX_MISMATCH) * panel.error.max(least) + T::of(2.0) * panel.noise;
+        let allowed = T::of(MAX_PROBE_ERROR) * panel.error.max(least) + T::of(2.0) * panel.noise;
         // A sample inside a feature disturbs the others of its batch, but less.
         let off = |i: usize| (panel.value(places[i]) - (upper[i] - lower[i])).abs();
         // Also outside the contact: a limit may leave little of a feature inside.

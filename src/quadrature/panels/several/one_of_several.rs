@@ -12,13 +12,13 @@ use crate::{ContactError, InputError, Interval, Real, Side};
 
 /// Most halvings of a panel to resolve the weight next to a gap, which may be as narrow as rounding
 /// allows.
-const MAX_HALVES: usize = 60;
+const MAX_CUTS_OF_PANEL: usize = 60;
 
 /// Most halvings for derivatives alone, which may be noise.
 const DERIVATIVE_HALVES: usize = 4;
 
 /// Most panels of one contact; beyond it none is halved any more.
-const MAX_PANELS: usize = 1 << 12;
+const MOST_PANELS: usize = 1 << 12;
 
 /// Margin of the sampled span beyond a contact, as a share of its width, so that its limits can be
 /// moved.
@@ -177,7 +177,7 @@ impl<T: Real> OneOfSeveral<T> {
                     let resolved = resolved && (moved || halved >= DERIVATIVE_HALVES);
                     let [from, to] = x;
                     let middle = T::of(0.5) * (from + to);
-                    let may = halved < MAX_HALVES && self.panels.len() < MAX_PANELS;
+                    let may = halved < MAX_CUTS_OF_PANEL && self.panels.len() < MOST_PANELS;
                     if !resolved && may && middle > from && middle < to {
                         self.waiting
                             .extend([[middle, to], [from, middle]].map(|x| (x, halved + 1)));

@@ -6,7 +6,7 @@ use crate::{Interval, Real};
 use std::cmp::Ordering;
 
 /// Least share of its width that a contact or a gap keeps in one step.
-const LEAST_LEFT: f64 = 0.3;
+const LEAST_WIDTH_LEFT: f64 = 0.3;
 
 /// Largest factor by which a width may grow in one step.
 const MAX_GROWTH: f64 = 4.0;
@@ -42,7 +42,7 @@ impl<T: Real> NewtonSeveral<T> {
     /// Returns the least share of a width that a step leaves. A width that was cut may shrink
     /// faster.
     fn least(&self, i: Width) -> T {
-        T::of(LEAST_LEFT.powi(self.cut[i] + 1))
+        T::of(LEAST_WIDTH_LEFT.powi(self.cut[i] + 1))
     }
 
     pub(super) fn width(&self, i: Width) -> T {
@@ -94,7 +94,7 @@ impl<T: Real> NewtonSeveral<T> {
         let mut share = one;
         for i in 0..count - 1 {
             let (width, less) = (self.width(i), self.moves[i] - self.moves[i + 1]);
-            let most = (one - T::of(0.5 * LEAST_LEFT.powi(MAX_CUT))) * width;
+            let most = (one - T::of(0.5 * LEAST_WIDTH_LEFT.powi(MAX_CUT))) * width;
             if less > most {
                 share = share.min(most / less);
             }
