@@ -5,10 +5,10 @@ use crate::Real;
 use std::fmt;
 
 /// Number of steps in `k` at which the check evaluates `X` and `X'`.
-const STEPS: usize = 32;
+const CHECK_STEPS: usize = 32;
 
 /// Piece with the points along it at which it was evaluated.
-pub(super) type Scanned<'a, T> = (Piece<'a, T>, [CurvePoint<T>; STEPS + 1]);
+pub(super) type Scanned<'a, T> = (Piece<'a, T>, [CurvePoint<T>; CHECK_STEPS + 1]);
 
 /// Smooth curve and its two ends, from left to right.
 #[derive(Clone, Copy)]
@@ -144,30 +144,30 @@ impl<'a, T: Real> Piece<'a, T> {
         curve: &'a dyn ParametricProfile<T>,
     ) -> Result<Scanned<'a, T>, ProfileError<T>> {
         let [from, to] = interval(curve.domain())?;
-        let step = (to - from) / T::count(STEPS);
-        let k = |i| if i == STEPS { to } else { from + step * T::count(i) };
+        let step = (to - from) / T::count(CHECK_STEPS);
+        let k = |i| if i == CHECK_STEPS { to } else { from + step * T::count(i) };
         let zero = T::zero();
-        let mut points = [CurvePoint { x: zero, y: zero, dx: zero, dy: zero }; STEPS + 1];
-        curve.at_many(&std::array::from_fn::<T, { STEPS + 1 }, _>(k), &mut points);
+        let mut points = [CurvePoint { x: zero, y: zero, dx: zero, dy: zero }; CHECK_STEPS + 1];
+        curve.at_many(&std::array::from_fn::<T, { CHECK_STEPS + 1 }, _>(k), &mut points);
         for (i, point) in points.iter().enumerate() {
             finite_at("X", k(i), point.x)?;
-            if i > 0 && i < STEPS {
+            if i > 0 && i < CHECK_STEPS {
                 finite_at("X'", k(i), point.dx)?;
             }
         }
-        let rising = points[STEPS].x > points[0].x;
+        let rising = points[CHECK_STEPS].x > points[0].x;
         let forward = |change: T| if rising { change } else { -change };
-        for i in 0..STEPS {
+        for i in 0..CHECK_STEPS {
             let turned = i > 0 && forward(points[i].dx) < T::zero();
             if turned || forward(points[i + 1].x - points[i].x) <= T::zero() {
                 // X turns where X' changes its sign, which may be far from the first step in the
                 // wrong direction.
                 let turns = |&j: &usize| points[j].dx * points[j + 1].dx < T::zero();
-                let j = (0..STEPS).find(turns).unwrap_or(i);
+                let j = (0..CHECK_STEPS).find(turns).unwrap_or(i);
                 return Err(first_turn(curve, [from, to], [k(j), k(j + 1)]));
             }
         }
-        Ok((Self::between(curve, [from, to], [points[0], points[STEPS]])?, points))
+        Ok((Self::between(curve, [from, to], [points[0], points[CHECK_STEPS]])?, points))
     }
 }
 
@@ -217,15 +217,15 @@ pub(crate) fn first_turn<T: Real>(
     domain: [T; 2],
     met: [T; 2],
 ) -> ProfileError<T> {
-    const STEPS: usize = 2048;
+    const FINE_STEPS: usize = 2048;
     let rising = |[one, other]: [T; 2]| [one.min(other), one.max(other)];
     let [from, to] = rising(domain);
     let half = T::of(0.5);
-    let (middle, step) = (half * from + half * to, half * (to - from) / T::count(STEPS));
+    let (middle, step) = (half * from + half * to, half * (to - from) / T::count(FINE_STEPS));
     let back = |k: T| curve.dx(k) < T::zero();
     let side = back(middle);
     let mut last = [middle; 2];
-    for i in 1..=STEPS {
+    for i in 1..=FINE_STEPS {
         let reach = step * T::count(i);
         let next = [(middle - reach).max(from), (middle + reach).min(to)];
         for (last, next) in last.iter_mut().zip(next) {

@@ -32,10 +32,10 @@ use crate::{ContactError, Ends, InputError, Interval, Real, Side, SolveError};
 pub(crate) use cauchy_transform::{CauchyTransform, inverse, length, sqrt};
 pub(crate) use edge_integrals::rise as rises_over;
 pub(crate) use half_angle::{Arc, HalfAngle};
-use hilbert_transform::{Edges, HilbertTransform, LANES};
+use hilbert_transform::{BATCH, Edges, HilbertTransform};
 pub(crate) use panel::Panel;
 use panel::Series;
-use panel_set::{FEWEST, LEAST_ULPS};
+use panel_set::{LEAST_ULPS, MIN_NODES};
 pub(crate) use panel_set::{PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System};
 
@@ -235,19 +235,19 @@ impl<T: Real> PanelIntegrator<T> {
     /// Returns the number of nodes that should suffice, from the first ratio of the coefficients
     /// two apart. Next to a root, as at the side of a circle, the ratios rise from it like 2 - 1/m.
     fn expected_size(&self, on: Interval<T>) -> usize {
-        let Some([decay, half_width]) = self.decay else { return FEWEST };
+        let Some([decay, half_width]) = self.decay else { return MIN_NODES };
         let shrunk = on.half_width() / half_width;
         let (first, mut left) = (decay * shrunk * shrunk, T::one());
         for m in 1..=MAX_SIZE / 2 {
             left *= (first * (T::of(2.0) - T::one() / T::count(m))).min(T::one());
             let n = 2 * m;
-            if n >= FEWEST && SIZES.contains(&n) && left <= self.panel_set.tolerance {
+            if n >= MIN_NODES && SIZES.contains(&n) && left <= self.panel_set.tolerance {
                 return n;
             }
         }
         // Where the first ratio would do, few panels of many nodes.
         let would_do = first.powf(T::count(MAX_SIZE / 2)) <= self.panel_set.tolerance;
-        if would_do { MAX_SIZE } else { FEWEST }
+        if would_do { MAX_SIZE } else { MIN_NODES }
     }
 }
 
@@ -343,13 +343,13 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
             out.iter_mut().for_each(|pressure| *pressure *= load_case.kappa);
             return Ok(());
         }
-        let (whole, rest) = x.as_chunks::<LANES>();
-        let (out, rest_out) = out.as_chunks_mut::<LANES>();
+        let (whole, rest) = x.as_chunks::<BATCH>();
+        let (out, rest_out) = out.as_chunks_mut::<BATCH>();
         for (x, out) in whole.iter().zip(out) {
-            *out = self.in_lanes(load_case, x, LANES);
+            *out = self.in_lanes(load_case, x, BATCH);
         }
         if let [first, ..] = rest {
-            let mut lanes = [*first; LANES];
+            let mut lanes = [*first; BATCH];
             lanes[..rest.len()].copy_from_slice(rest);
             rest_out.copy_from_slice(&self.in_lanes(load_case, &lanes, rest.len())[..rest.len()]);
         }
@@ -423,7 +423,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
 impl<T: Real> PanelIntegrator<T> {
     /// Returns the pressure at `count` points strictly inside the contact.
     #[inline(always)]
-    fn in_lanes(&self, load_case: &LoadCase<T>, x: &[T; LANES], count: usize) -> [T; LANES] {
+    fn in_lanes(&self, load_case: &LoadCase<T>, x: &[T; BATCH], count: usize) -> [T; BATCH] {
         let on = self.transform.on;
         let scale = load_case.kappa / (T::pi() * T::pi());
         let (half, least) = (T::of(0.5), T::of(0.1));

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 pub const STEEPEST_HALF_PLANE: f64 = 0.3;
 
 /// Number of points of each contact at which slopes are taken.
-const SLOPES: usize = 17;
+const SLOPE_POINTS: usize = 17;
 
 /// Least angle of bodies that conform: 9.1°, at which Hertz's peak in a hole is 1 % too low.
 const LEAST_CONFORMING: f64 = 9.1 * PI / 180.0;
@@ -128,8 +128,8 @@ impl<T: Real> Solution<'_, T> {
         let (gap, mut sampler) = (self.gap.before_bend(), Sampler::default());
         let mut steepest = T::zero();
         for &on in self.intervals() {
-            let angle = |i: usize| T::pi() * T::count(i) / T::count(SLOPES - 1);
-            let inside = (1..SLOPES - 1).map(|i| (on.at_angle(angle(i)), Side::Left));
+            let angle = |i: usize| T::pi() * T::count(i) / T::count(SLOPE_POINTS - 1);
+            let inside = (1..SLOPE_POINTS - 1).map(|i| (on.at_angle(angle(i)), Side::Left));
             let limits = [(on.left, Side::Right), (on.right, Side::Left)];
             let breakpoints = gap.breakpoints(on).flat_map(|x| [(x, Side::Left), (x, Side::Right)]);
             for (x, side) in inside.chain(limits).chain(breakpoints) {

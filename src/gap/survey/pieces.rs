@@ -23,7 +23,7 @@ const ROUNDING: f64 = 64.0;
 const CUBIC_PLACES: [f64; 2] = [0.3, 0.7];
 
 /// Largest number of runs into which a run is divided.
-const MAX_RUNS: usize = 16;
+const RUN_PARTS: usize = 16;
 
 impl<T: Real> Panel<T> {
     /// Makes the panel of some pieces of a body, known only by their ends.
@@ -67,7 +67,7 @@ impl<T: Real> Panel<T> {
 
     /// Returns the parts of a run.
     pub fn parts(&self, surface: &Surface<'_, T>) -> impl Iterator<Item = Self> {
-        let count = (self.last - self.piece + 1).div_ceil(MAX_RUNS);
+        let count = (self.last - self.piece + 1).div_ceil(RUN_PARTS);
         (self.piece..=self.last).step_by(count).map(move |first| {
             let part = Self::of_pieces(surface, [first, (first + count - 1).min(self.last)]);
             let mut part = Self { before: self.doubt, ..part };

@@ -40,7 +40,7 @@ use crate::real::fma;
 use crate::{Interval, Real};
 
 /// Number of points evaluated together.
-pub(super) const LANES: usize = 16;
+pub(super) const BATCH: usize = 16;
 
 /// Largest number of changes from one panel to the next, each with its logarithm; beyond it, groups
 /// of panels take less time.
@@ -48,14 +48,14 @@ const MAX_LOGARITHMS: usize = 64;
 
 /// Distances of points to the two edges, and `sqrt((x + b)(a - x))`.
 pub(super) struct Edges<T> {
-    pub left: [T; LANES],
-    pub right: [T; LANES],
-    pub root: [T; LANES],
+    pub left: [T; BATCH],
+    pub right: [T; BATCH],
+    pub root: [T; BATCH],
 }
 
 impl<T: Real> Edges<T> {
     #[inline(always)]
-    pub fn of(on: Interval<T>, x: &[T; LANES]) -> Self {
+    pub fn of(on: Interval<T>, x: &[T; BATCH]) -> Self {
         let width = on.right - on.left;
         let share = T::one() / width;
         let left = x.map(|x| x - on.left);
@@ -205,18 +205,18 @@ impl<T: Real> HilbertTransform<T> {
     /// Returns `π² R` at the first `count` points, strictly inside the contact; infinite where the
     /// slope jumps.
     #[inline(always)]
-    pub fn at(&self, x: &[T; LANES], count: usize, edges: &Edges<T>) -> [T; LANES] {
+    pub fn at(&self, x: &[T; BATCH], count: usize, edges: &Edges<T>) -> [T; BATCH] {
         if self.is_far {
-            let mut sums = [T::zero(); LANES];
+            let mut sums = [T::zero(); BATCH];
             for (sum, &x) in sums.iter_mut().zip(&x[..count]) {
                 *sum = self.far.at(x, self.on, self.rounding);
             }
             return sums;
         }
         let share = T::one() / (self.on.right - self.on.left);
-        let z: [T; LANES] = std::array::from_fn(|i| (edges.left[i] - edges.right[i]) * share);
+        let z: [T; BATCH] = std::array::from_fn(|i| (edges.left[i] - edges.right[i]) * share);
         let [smooth, _] = second_kind(&self.smooth[..self.terms], &z);
-        let mut sum: [T; LANES] = std::array::from_fn(|i| edges.root[i] * smooth[i]);
+        let mut sum: [T; BATCH] = std::array::from_fn(|i| edges.root[i] * smooth[i]);
         if self.changes.is_empty() {
             return sum;
         }
@@ -224,7 +224,7 @@ impl<T: Real> HilbertTransform<T> {
         for Change { breakpoint, series, terms } in &self.changes {
             let change = values(&series[..*terms], &z);
             let logs = breakpoint.logarithms(change, x, &roots, self.on, self.rounding);
-            for i in 0..LANES {
+            for i in 0..BATCH {
                 sum[i] += logs[i];
             }
         }

@@ -19,7 +19,7 @@ use sampling::SampledBody;
 
 /// Fewest nodes of a panel after the first estimate. On a span a little wider than a contact, the
 /// outermost of eight nodes lie beyond the limits; of four they would not.
-pub(super) const FEWEST: usize = 8;
+pub(super) const MIN_NODES: usize = 8;
 
 /// Lowest tolerance, in units in the last place.
 pub(super) const LEAST_ULPS: f64 = 16.0;
@@ -106,7 +106,7 @@ impl<T: Real> PanelSet<T> {
             measured: 0,
             size: T::zero(),
             least: T::one() / T::zero(),
-            initial: FEWEST,
+            initial: MIN_NODES,
             coarse: false,
             tolerance,
             cost: Cost::default(),
@@ -122,7 +122,7 @@ impl<T: Real> PanelSet<T> {
     /// Forgets the panels; keeps the curves' last points if the bodies are the same.
     pub fn clear(&mut self, same_bodies: bool) {
         self.panels.clear();
-        (self.is_cut_up, self.initial) = (false, FEWEST);
+        (self.is_cut_up, self.initial) = (false, MIN_NODES);
         (self.size, self.least) = (T::zero(), T::one() / T::zero());
         self.derivative_sizes.clear();
         if !same_bodies {
@@ -256,7 +256,7 @@ impl<T: Real> PanelSet<T> {
         let (first, last) = (self.panels[0], self.panels[self.panels.len() - 1]);
         let more = |panel: &Panel<T>| sliver * (panel.x[1] - panel.x[0]);
         let Interval { left, right } = further(have.left - more(&first), have.right + more(&last));
-        let enough = |panel: &Panel<T>| size_for(panel.length / 2).max(FEWEST);
+        let enough = |panel: &Panel<T>| size_for(panel.length / 2).max(MIN_NODES);
         // A feature beyond the last node of the outermost panel shows at the new neighbour, unless
         // a breakpoint lies between them.
         if right > have.right {
@@ -276,7 +276,7 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// Covers an interval alone, with [`FEWEST`] nodes or more between two breakpoints.
+    /// Covers an interval alone, with [`MIN_NODES`] nodes or more between two breakpoints.
     pub fn sample_anew(
         &mut self,
         gap: &Gap<'_, T>,

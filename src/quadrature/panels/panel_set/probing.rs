@@ -71,7 +71,7 @@ impl<T: Real> PanelSet<T> {
         let mut known = i - usize::from(i > 0 && !gap.is_breakpoint(left));
         let room = T::of(OFF_PLACE) * apart;
         let has_room = |x: &T| *x > panel.x[0] + room && *x < end - room;
-        self.initial = super::FEWEST;
+        self.initial = super::MIN_NODES;
         for right in [x - apart, x, x + apart].into_iter().filter(has_room) {
             self.sample(gap, Interval { left, right }, known, None)?;
             (left, known) = (right, self.panels.len() - 1);

@@ -1,7 +1,7 @@
 //! One of several contacts: the slope of the gap times the weight, and its integrals.
 
 use super::super::edge_integrals::{self, EdgeSums};
-use super::super::hilbert_transform::{Edges, HilbertTransform, LANES};
+use super::super::hilbert_transform::{BATCH, Edges, HilbertTransform};
 use super::super::near_far_sum::{NearFarSum, Seen};
 use super::super::panel::{MANY, Panel, Series, spans, within};
 use super::super::panel_set::PanelSet;
@@ -44,7 +44,7 @@ const FAR_DISTANCE: f64 = 4.0;
 const MAX_WALL: f64 = 0.1;
 
 /// Number of nodes at which the weight is computed together.
-const W: usize = 4;
+const WIDE: usize = 4;
 
 #[derive(Clone)]
 pub(super) struct OneOfSeveral<T> {
@@ -162,7 +162,7 @@ impl<T: Real> OneOfSeveral<T> {
 
     /// Multiplies the slope by a weight, and prepares for the conditions on the limits. For a trial
     /// one panel is taken if it is almost enough.
-    pub fn set(&mut self, weight: impl Fn([T; W]) -> [T; W], is_trial: bool) {
+    pub fn set(&mut self, weight: impl Fn([T; WIDE]) -> [T; WIDE], is_trial: bool) {
         let (on, tolerance) = (self.on, self.panel_set.tolerance);
         if !(is_trial && self.panel_set.panels.len() >= MANY && self.on_one_panel(&weight)) {
             self.panels.clear();
@@ -196,7 +196,7 @@ impl<T: Real> OneOfSeveral<T> {
     }
 
     /// Multiplies the slope by a weight on one panel; tells whether that is almost enough.
-    fn on_one_panel(&mut self, weight: &impl Fn([T; W]) -> [T; W]) -> bool {
+    fn on_one_panel(&mut self, weight: &impl Fn([T; WIDE]) -> [T; WIDE]) -> bool {
         let (x, zero) = ([self.on.left, self.on.right], T::zero());
         let slope = |x| self.panel_set.slope(x).unwrap_or(zero);
         let tolerance = T::of(TRIAL_TOLERANCE);
@@ -288,7 +288,7 @@ impl<T: Real> OneOfSeveral<T> {
 
     /// Returns `sqrt((x - α)(β - x)) V(x)` at the first `count` points, in the contact, and the
     /// root.
-    pub fn inside(&self, x: &[T; LANES], count: usize) -> ([T; LANES], [T; LANES]) {
+    pub fn inside(&self, x: &[T; BATCH], count: usize) -> ([T; BATCH], [T; BATCH]) {
         let edges = Edges::of(self.on, x);
         (self.transform.at(x, count, &edges), edges.root)
     }
@@ -305,7 +305,7 @@ impl<T: Real> OneOfSeveral<T> {
 fn multiply<T: Real>(
     x: [T; 2],
     (slope, error, least): (&impl Fn(T) -> T, T, usize),
-    weight: &impl Fn([T; W]) -> [T; W],
+    weight: &impl Fn([T; WIDE]) -> [T; WIDE],
     tolerance: T,
 ) -> (Panel<T>, bool, bool) {
     let half = T::of(0.5);
@@ -314,7 +314,7 @@ fn multiply<T: Real>(
         let table = Table::of(n);
         let (reach, mut largest) = (half * (x[1] - x[0]), T::zero());
         let mut values = [T::zero(); MAX_SIZE];
-        let chunks = values[..n].as_chunks_mut::<W>().0;
+        let chunks = values[..n].as_chunks_mut::<WIDE>().0;
         for (values, &z) in chunks.iter_mut().zip(table.z.as_chunks().0) {
             // From the nearer end, where the weight may be steep.
             let places = z.map(|z| match z {

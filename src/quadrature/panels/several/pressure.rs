@@ -1,6 +1,6 @@
 //! The pressure of several contacts.
 
-use super::super::hilbert_transform::LANES;
+use super::super::hilbert_transform::BATCH;
 use super::Several;
 use crate::{Real, Side};
 
@@ -16,9 +16,9 @@ impl<T: Real> Several<T> {
         let mut done = 0;
         while done < x.len() {
             let contact = self.contact_with(x[done]);
-            let mut lanes = [x[done]; LANES];
+            let mut lanes = [x[done]; BATCH];
             let alike = |&&x: &&T| self.contact_with(x) == contact;
-            let count = x[done..].iter().take(LANES).take_while(alike).count();
+            let count = x[done..].iter().take(BATCH).take_while(alike).count();
             lanes[..count].copy_from_slice(&x[done..done + count]);
             let out = &mut pressures[done..done + count];
             done += count;
