@@ -52,7 +52,7 @@ impl<T: Real> Correction<T> {
         mut spreads: Vec<Spread<T>>,
         kept: Kept<T>,
     ) -> Result<Option<Self>, T> {
-        let loads = Loads::of(kernel, &spreads);
+        let loads = Loads::of(kernel.distance(), &spreads);
         let (mut places, mut largest, mut off) = (Vec::new(), T::zero(), T::zero());
         for spread in &spreads {
             let on = spread.on;
@@ -239,10 +239,11 @@ fn sums<T: Real>(mut row: Vec<T>, other: impl Iterator<Item = T>) -> Vec<T> {
 /// interval or at its ends, for each k.
 fn outside<T: Real>(on: Interval<T>, x: T, count: usize) -> Vec<[T; 2]> {
     let (half_width, one) = (on.half_width(), T::one());
-    let z = (x - on.centre()) / half_width;
-    let root = ((z.abs() - one).max(T::zero()) * (z.abs() + one)).sqrt();
-    let sign = if z < T::zero() { -one } else { one };
-    let u = sign / (z.abs() + root);
+    // |z| - 1: zero at a limit, or the root of its rounding would count.
+    let beside = (x - on.right).max(on.left - x).max(T::zero()) / half_width;
+    let root = (beside * (beside + T::of(2.0))).sqrt();
+    let sign = if x < on.centre() { -one } else { one };
+    let u = sign / (one + beside + root);
     let scale = sign / (half_width * root);
     let mut power = one;
     let term = |k: usize| {
