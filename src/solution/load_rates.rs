@@ -55,8 +55,8 @@ pub struct LoadRates<T> {
 #[derive(Clone, Debug, PartialEq)]
 enum Touching<T> {
     One(Interval<T>),
-    /// Contacts of bodies that are not half-planes, each with its part of the rate.
-    Bent(Vec<Spread<T>>),
+    /// Contacts of bodies that are not half-planes, each with its part of the rate, and the period.
+    Bent(Vec<Spread<T>>, Option<T>),
     Several(Box<LoadResponse<T>>),
 }
 
@@ -73,7 +73,7 @@ impl<T: Real> LoadRates<T> {
     /// Returns the rate of the pressure of bodies that are not half-planes.
     pub(super) fn bent(&self) -> Option<&[Spread<T>]> {
         match &self.punch {
-            Touching::Bent(spreads) => Some(spreads),
+            Touching::Bent(spreads, _) => Some(spreads),
             _ => None,
         }
     }
@@ -84,7 +84,7 @@ impl<T: Real> LoadRates<T> {
         Self { a: right, b: -left, limits: vec![limits], punch: Touching::One(on) }
     }
 
-    /// Returns ∂P/∂F at a fixed `x`, one over a length; zero outside the contacts.
+    /// Returns ∂P/∂F at a fixed `x`, in any period, one over a length; zero outside the contacts.
     ///
     /// # Errors
     /// [`EvaluationError::Singular`] at the edges, where it is infinite;
@@ -92,8 +92,14 @@ impl<T: Real> LoadRates<T> {
     pub fn pressure(&self, x: T) -> Result<T, ContactError<T>> {
         let contact = |i: usize| match &self.punch {
             Touching::One(on) => (i == 0).then_some(on),
-            Touching::Bent(spreads) => spreads.get(i).map(|spread| &spread.on),
+            Touching::Bent(spreads, _) => spreads.get(i).map(|spread| &spread.on),
             Touching::Several(punch) => punch.contacts().get(i),
+        };
+        let x = match &self.punch {
+            Touching::Bent(spreads, Some(period)) => {
+                x - *period * ((x - spreads[0].on.left) / *period).floor()
+            }
+            _ => x,
         };
         // NaN is beyond no limit.
         let is_beyond = |on: &Interval<T>| on.right < x;
@@ -102,7 +108,7 @@ impl<T: Real> LoadRates<T> {
         match contact(i) {
             Some(on) if on.contains(x) => Ok(match &self.punch {
                 Touching::One(on) => T::frac_1_pi() / on.chebyshev_weight(x),
-                Touching::Bent(spreads) => spreads[i].at(x),
+                Touching::Bent(spreads, _) => spreads[i].at(x),
                 Touching::Several(punch) => punch.pressure(i, x),
             }),
             Some(on) if x == on.left || x == on.right => {
@@ -154,7 +160,8 @@ impl<T: Real> LoadRates<T> {
                 .map(|(rate, ratio)| if rate.is_zero() { rate } else { rate * ratio });
         }
         let [b, a] = [-limits[0].left, limits[limits.len() - 1].right];
-        Ok(Self { a, b, limits, punch: Touching::Bent(spreads) })
+        let period = bend.kernel_of_bodies().row.as_ref().map(|row| row.period);
+        Ok(Self { a, b, limits, punch: Touching::Bent(spreads, period) })
     }
 
     /// Returns the derivatives of a contact of half-planes, or of bodies with a given bend.

@@ -8,13 +8,13 @@ use crate::random_scenes::Dice;
 use crate::several_bench::{PERIODIC, Periodic, rough};
 use linecontact::profile::Piecewise;
 use linecontact::{
-    Base, Contact, ContactError, Control, Curve, CurvePoint, Edge, EvaluationError, Flat,
-    InputError, Material, ParametricProfile, PlaneState, Reference, References, RegularKernel,
-    Solution, SolveError, Solver,
+    Base, Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, InputError, Material,
+    ParametricProfile, PlaneState, Reference, References, RegularKernel, Solution, SolveError,
+    Solver,
 };
 use std::f64::consts::{PI, TAU};
 
-const PERIOD: f64 = 1.3;
+pub const PERIOD: f64 = 1.3;
 
 /// Waves with heights `Σ a (1 - cos(2π n x/p + φ))`, described from a place on.
 pub fn waves(from: f64, terms: &[[f64; 3]]) -> Profile {
@@ -77,10 +77,8 @@ fn one_contact_is_westergaards() {
             }
             let rates = solution.load_rates().unwrap();
             let expected = (PI * x / PERIOD).cos() / PERIOD / (sin * sin - sine * sine).sqrt();
-            assert!(
-                (rates.pressure(crest + x).unwrap() / expected - 1.0).abs() < 1e-12,
-                "{a} {from}"
-            );
+            let off = rates.pressure(x).unwrap() / expected - 1.0;
+            assert!(off.abs() < 1e-12, "{a} {from}: {off:e}");
             // F = π d sin²(πa/p)
             let width = 1.0 / (d * PI * PI / PERIOD * (TAU * a / PERIOD).sin());
             assert!((rates.a / width - 1.0).abs() < 1e-11, "{a} {from}: {}", rates.a / width - 1.0);
@@ -263,7 +261,9 @@ fn rates_and_controls_of_several_contacts() {
         let [high, low] =
             [&above, &below].map(|solution| solution.pressure().unwrap().at(x).unwrap());
         let expected = (high - low) / (2.0 * step);
-        assert!((rates.pressure(x).unwrap() / expected - 1.0).abs() < 1e-5);
+        for x in [x - PERIOD, x, x + 2.0 * PERIOD] {
+            assert!((rates.pressure(x).unwrap() / expected - 1.0).abs() < 1e-5);
+        }
     }
     let [high, low] = [&above, &below].map(|solution| solution.approach(&ANYWHERE).unwrap().bodies);
     let stiffness = at.stiffness(&ANYWHERE).unwrap();
@@ -371,10 +371,6 @@ fn what_is_not_possible_is_refused() {
     }
     let fault = error(Contact::new(&Flat, &Flat).unwrap().period(PERIOD), load);
     assert!(matches!(fault, ContactError::Solve(SolveError::CompleteContact { .. })), "{fault}");
-
-    let solution = row(&crest).solve(load).unwrap();
-    let fault = solution.subsurface().map(|_| ()).unwrap_err();
-    assert!(matches!(fault, ContactError::Evaluation(EvaluationError::HalfPlanesOnly { .. })));
 }
 
 /// Kernel that is zero.
