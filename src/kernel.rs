@@ -89,8 +89,8 @@ pub(crate) struct Kernel<'b, T: Real> {
     pub formula: Option<Formula<'b, T>>,
     /// The other contacts of a row, one in each period.
     pub row: Option<Periodic<T>>,
-    /// Flag: all of it is layers.
-    pub is_of_layers: bool,
+    /// Flag: nothing of it is set by the user but layers and a period.
+    pub is_of_bodies: bool,
     /// Factor of both: less than 1 on the way to a solution.
     pub share: T,
 }
@@ -114,19 +114,6 @@ impl<T: Real> Kernel<'_, T> {
     /// Returns the integral of K by x.
     pub fn height(&self, x: T, s: T) -> T {
         self.share * self.parts().fold(T::zero(), |sum, part| sum + part.height(x, s))
-    }
-
-    /// Returns the length in the logarithm of a layer on a rigid base, with a share of the
-    /// compliance of the contact; `None` with a kernel of the user's.
-    pub fn absolute_length(&self, share: T) -> Option<T> {
-        let table = self.table.as_ref().filter(|_| self.is_of_layers)?;
-        Some(table.absolute_length(share))
-    }
-
-    /// Returns the period of half-planes in a row of contacts.
-    pub fn period_of_half_planes(&self) -> Option<T> {
-        let is_alone = self.table.is_none() && self.formula.is_none();
-        self.row.as_ref().filter(|_| is_alone).map(|row| row.period)
     }
 
     /// Takes the distance of the next period for contacts in an interval of the range at hand.
@@ -170,33 +157,37 @@ impl<T: Real> Kernel<'_, T> {
         sums.map(|sum| self.share * sum)
     }
 
-    /// Returns numbers of terms on an interval: of a pressure that is corrected, of r, and the most
-    /// of any pressure that reach r.
-    ///
-    /// With the singularity at a distance c, r has singularities c above the ends of the interval,
-    /// and its series converges with the root of L/c; so many terms leave 1e-15 of it for 2L/c from
-    /// 0.1 to 90, and so few a correction of 1e-4 to 1e-6 (found by trial). Coefficients beyond the
-    /// most meet only wavenumbers at which K - 1 is below rounding.
+    /// Returns numbers of terms on an interval.
     pub fn terms(&self, on: Interval<T>) -> [usize; 3] {
-        let ratio = self.ratio(on);
-        let sum = |first: f64, by_root: f64, by_ratio: f64| {
-            at_least(T::of(first) + T::of(by_root) * ratio.sqrt() + T::of(by_ratio) * ratio)
-        };
-        let corrected = sum(8.0, 4.0, 2.2);
-        [corrected, sum(14.0, 24.0, 0.0).max(corrected), sum(30.0, 0.0, 10.0)]
+        terms(self.distance(), on)
     }
+}
 
-    /// Returns the number of nodes for integrals of a pressure times the kernel: K(x, s) is to
-    /// rounding a polynomial of degree 8 + 36 L/c in s, and the rule is exact up to twice its
-    /// nodes.
-    fn nodes(&self, spread: &Spread<T>) -> usize {
-        let degree = T::of(8.0) + T::of(18.0) * self.ratio(spread.on) + T::count(spread.q.len());
-        at_least(T::of(0.5) * degree)
-    }
+/// Returns numbers of terms on an interval with the nearest singularity of the kernel at a distance
+/// c: of a pressure that is corrected, of r, and the most of any pressure that reach r.
+///
+/// r has singularities c above the ends of the interval, and its series converges with the root of
+/// L/c; so many terms leave 1e-15 of it for 2L/c from 0.1 to 90, and so few a correction of 1e-4 to
+/// 1e-6 (found by trial). Coefficients beyond the most meet only wavenumbers at which K - 1 is
+/// below rounding.
+pub(crate) fn terms<T: Real>(distance: T, on: Interval<T>) -> [usize; 3] {
+    let ratio = ratio(distance, on);
+    let sum = |first: f64, by_root: f64, by_ratio: f64| {
+        at_least(T::of(first) + T::of(by_root) * ratio.sqrt() + T::of(by_ratio) * ratio)
+    };
+    let corrected = sum(8.0, 4.0, 2.2);
+    [corrected, sum(14.0, 24.0, 0.0).max(corrected), sum(30.0, 0.0, 10.0)]
+}
 
-    fn ratio(&self, on: Interval<T>) -> T {
-        (T::of(2.0) * on.half_width() / self.distance()).component(0)
-    }
+/// Returns the number of nodes for integrals of a pressure times the kernel: K(x, s) is to rounding
+/// a polynomial of degree 8 + 36 L/c in s, and the rule is exact up to twice its nodes.
+fn nodes<T: Real>(distance: T, spread: &Spread<T>) -> usize {
+    let ratio = ratio(distance, spread.on);
+    at_least(T::of(0.5) * (T::of(8.0) + T::of(18.0) * ratio + T::count(spread.q.len())))
+}
+
+fn ratio<T: Real>(distance: T, on: Interval<T>) -> T {
+    (T::of(2.0) * on.half_width() / distance).component(0)
 }
 
 /// Returns the least number of terms that is not below a value.

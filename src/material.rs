@@ -61,19 +61,22 @@ impl<T: Real> Material<T> {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Reference<T> {
-    /// Point at this depth below the surface of the half-plane, a length.
+    /// Point at this depth below the surface, a length: in the half-plane, in a layer, or in the
+    /// base below it.
     Depth(T),
     /// Centre of a disc of this radius, a length, which is loaded at the opposite point: a roller
     /// between two plates (Johnson, *Contact Mechanics*, 1985, §5.6). The formula is for a contact
     /// that is small beside the disc; its error is of the order of `(L/R)²`. A roller between two
-    /// blocks has a contact on each side: the approaches add.
+    /// blocks has a contact on each side: the approaches add. A layer must be thin beside the disc.
     Disc(T),
     /// ℓ in `2 ln(ℓ/|x - s|)`, a length, longer than the contact: with a short one, approach and
-    /// stiffness are negative. A constant C as in `C - 2 ln|x - s|` means `ℓ = exp(C/2)`.
+    /// stiffness are negative. A constant C as in `C - 2 ln|x - s|` means `ℓ = exp(C/2)`. Below a
+    /// layer it is the constant of the base, as it is seen from far beside the contact.
     Length(T),
 }
 
-/// References of both bodies. The reference of a [rigid](crate::Material::Rigid) body is not used.
+/// References of both bodies. Those of a [rigid](crate::Material::Rigid) body, of a layer on a
+/// rigid base and of bodies that repeat are not used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -70,8 +70,8 @@ impl<'b, T: Real> Beside<'b, T> {
             }
             (None, _) => None,
         };
-        let is_of_layers = self.is_empty();
-        Ok(Some(Box::new(Kernel { table, formula, row, is_of_layers, share: T::one() })))
+        let is_of_bodies = self.formula.is_none() && self.compliance.is_none();
+        Ok(Some(Box::new(Kernel { table, formula, row, is_of_bodies, share: T::one() })))
     }
 }
 

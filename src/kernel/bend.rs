@@ -52,7 +52,7 @@ impl<'b, T: Real> Bend<'b, T> {
         let is_short = spreads.len() == 1 && period.is_none();
         let count = if is_short { 1 } else { super::at_least(cells).max(1) };
         let rows = (0..count).map(|_| OnceLock::new()).collect();
-        let loads = Loads::of(kernel, spreads);
+        let loads = Loads::of(kernel.distance(), spreads);
         let steps = Ends::from_fn(|_| OnceLock::new());
         Self { kernel: kernel.clone(), loads, on, rows, steps }
     }
@@ -65,7 +65,7 @@ impl<'b, T: Real> Bend<'b, T> {
     /// Returns the mean of `∫ r dx` of some pressures over the first of their intervals, with the
     /// weight `1/(π sqrt((x + b)(a - x)))`.
     pub fn mean_height(&self, of: &[Spread<T>]) -> T {
-        let (loads, on) = (Loads::of(&self.kernel, of), of[0].on);
+        let (loads, on) = (Loads::of(self.kernel.distance(), of), of[0].on);
         let [_, terms, _] = self.kernel.terms(on);
         let heights = places(on, terms).map(|[x, _]| loads.height(&self.kernel, x));
         heights.fold(T::zero(), |sum, height| sum + height) / T::count(terms)

@@ -10,9 +10,15 @@
 
 use super::RegularKernel;
 use crate::Real;
+use nalgebra::Complex;
 
 /// Number of terms of the power series: for |t| < 1 the next one is below 1e-17.
 const TERMS: usize = 17;
+
+/// Coefficients of `1/z - cot z` by odd powers of z, and the largest |z|² for them: the next term
+/// is below 1e-17.
+const COTANGENT: [f64; 5] = [1.0 / 3.0, 1.0 / 45.0, 2.0 / 945.0, 1.0 / 4725.0, 2.0 / 93555.0];
+const SMALL: f64 = 0.01;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Periodic<T> {
@@ -46,6 +52,30 @@ impl<T: Real> Periodic<T> {
     fn turns(&self, x: T, s: T) -> T {
         let most = T::of(1.5);
         ((x - s) / self.period).max(-most).min(most)
+    }
+
+    /// Returns K and its derivative at a distance from s, at a depth below the surface.
+    pub fn below(&self, distance: T, depth: T) -> [Complex<T>; 2] {
+        let [zero, one] = [T::zero(), T::one()].map(|real| Complex::new(real, T::zero()));
+        let (scale, two) = (T::pi() / self.period, T::of(2.0));
+        let z = Complex::new(distance, depth) * scale;
+        let [value, slope] = if z.norm_sqr() < T::of(SMALL) {
+            let terms = COTANGENT.iter().enumerate().rev();
+            let [value, slope] = terms.fold([zero; 2], |[value, slope], (k, &term)| {
+                let term = T::of(term);
+                [value * z * z - term, slope * z * z - term * T::count(2 * k + 1)]
+            });
+            [value * z, slope]
+        } else {
+            // exp(2iz), zero far below.
+            let (sin, cos) = (two * z.re).sin_cos();
+            let turn = Complex::new(cos, sin) * (-two * z.im).exp();
+            let inverse = |z: Complex<T>| z.conj() * z.norm_sqr().recip();
+            let (by, pole) = (inverse(turn - one), inverse(z));
+            let cotangent = Complex::new(T::zero(), T::one()) * (turn + one) * by;
+            [cotangent - pole, turn * by * by * T::of(4.0) + pole * pole]
+        };
+        [value * scale, slope * (scale * scale)]
     }
 }
 

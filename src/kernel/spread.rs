@@ -110,8 +110,10 @@ pub(crate) struct Loads<T> {
 }
 
 impl<T: Real> Loads<T> {
-    pub fn of(kernel: &Kernel<'_, T>, spreads: &[Spread<T>]) -> Self {
-        let nodes = |spread: &Spread<T>| spread.nodes(kernel.nodes(spread)).collect::<Vec<_>>();
+    /// Returns the loads for a kernel with its nearest singularity at a distance.
+    pub fn of(distance: T, spreads: &[Spread<T>]) -> Self {
+        let nodes =
+            |spread: &Spread<T>| spread.nodes(super::nodes(distance, spread)).collect::<Vec<_>>();
         Self { nodes: spreads.iter().flat_map(nodes).collect() }
     }
 

@@ -66,7 +66,7 @@ impl<T: Real> Table<T> {
             ends.push(half);
         }
         let mut fault = None;
-        wavenumbers(&*of, None, [T::zero(), ends[0]], |omega, _| {
+        wavenumbers([decay, of.longest()], None, [T::zero(), ends[0]], |omega, _| {
             let compliance = T::one() + of.excess(omega);
             if !(compliance.is_finite() && compliance > T::zero()) {
                 fault = fault.or(Some(omega));
@@ -79,17 +79,6 @@ impl<T: Real> Table<T> {
     /// Returns K(ω) - 1.
     pub fn excess(&self, wavenumber: T) -> T {
         self.of.excess(wavenumber)
-    }
-
-    /// Returns the length ℓ for which the surface of a body with K(0) = 0, which is some share of
-    /// the compliance of the contact, approaches its rigid base by `1/(π M) ∫ P 2 ln(ℓ/|x - s|)
-    /// ds`, less its share of `∫ r dx/κ`: `ln(ℓ/c) = ∫ (K - 1 + exp(-ωc))/ω dω`.
-    pub fn absolute_length(&self, share: T) -> T {
-        let (decay, mut sum) = (self.of.decay(), T::zero());
-        wavenumbers(&*self.of, None, [T::zero(), decay], |omega, weight| {
-            sum += weight / omega * (self.of.excess(omega) / share + (-omega * decay).exp());
-        });
-        decay * sum.exp()
     }
 
     /// Returns the panel of a difference `x - s`, the place in it from -1 to 1, and the sign of Γ.
@@ -149,7 +138,8 @@ impl<T: Real> Table<T> {
             let nodes = Nodes::of(MAX_SIZE);
             let half = T::of(0.5) * (to - from);
             let mut values: Coeffs<T> = [T::zero(); MAX_SIZE];
-            wavenumbers(&*self.of, self.period, [from, to], |omega, weight| {
+            let lengths = [self.of.decay(), self.of.longest()];
+            wavenumbers(lengths, self.period, [from, to], |omega, weight| {
                 let weight = weight * self.of.excess(omega);
                 for (value, &z) in values.iter_mut().zip(&nodes.z) {
                     *value += weight * (omega * (from + half * (T::one() + T::of(z)))).sin();
@@ -185,17 +175,18 @@ impl<T: Real> RegularKernel<T> for Table<T> {
     }
 }
 
-/// Calls a function for the nodes and the weights of a rule in ω, rising, for distances from
-/// `least` to `most`, or for the wavenumbers of a period.
+/// Calls a function for the nodes and the weights of a rule in ω, rising, for a compliance with a
+/// decay and a longest length, and distances from `least` to `most`; or for the wavenumbers of a
+/// period.
 pub(crate) fn wavenumbers<T: Real>(
-    of: &dyn SurfaceCompliance<T>,
+    [decay, longest]: [T; 2],
     period: Option<T>,
     [least, most]: [T; 2],
     mut node: impl FnMut(T, T),
 ) {
     let kept = T::of(KEPT) / least;
     // There K - 1 is below rounding: it has a factor ξ², at most 400.
-    let whole = (T::of(6.0) - T::epsilon().ln()) / of.decay();
+    let whole = (T::of(6.0) - T::epsilon().ln()) / decay;
     if let Some(period) = period {
         let step = T::two_pi() / period;
         let omegas = (1..).map(|n| step * T::count(n)).take_while(|&omega| omega < whole);
@@ -204,7 +195,7 @@ pub(crate) fn wavenumbers<T: Real>(
     let is_cut = T::of(BEYOND) * kept < whole;
     let end = if is_cut { T::of(BEYOND) * kept } else { whole };
     let (rule, widest) = (GaussLegendre::sixteen(), T::of(PHASE) / most);
-    let (mut from, mut width) = (T::zero(), T::of(FIRST_WIDTH) / of.longest());
+    let (mut from, mut width) = (T::zero(), T::of(FIRST_WIDTH) / longest);
     while from < end {
         let to = (from + width.min(widest)).min(end);
         let half = T::of(0.5) * (to - from);

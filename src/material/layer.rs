@@ -129,6 +129,7 @@ impl<T: Real> Foundation<T> {
         let layer = (material != Material::Rigid).then(|| Coating {
             thickness,
             at_zero: below.compliance / surface.compliance - T::one(),
+            ratios: [surface.ratio, below.ratio],
             bonded: (base != Base::Frictionless).then(|| constants(&surface, &below)),
         });
         Ok(Elasticity { layer, ..surface })
@@ -141,6 +142,8 @@ pub(crate) struct Coating<T> {
     pub thickness: T,
     /// K(0) - 1.
     pub at_zero: T,
+    /// ν of layer and base.
+    ratios: [T; 2],
     /// `[1 - λ, 1 - χ]`; `None` on a base without friction.
     bonded: Option<[T; 2]>,
 }
@@ -202,6 +205,31 @@ impl<T: Real> Coating<T> {
         let (first, second) = (less_lambda * u, less_chi * v);
         let base = [T::of(0.5) * (first + second), first].map(|a| share * (-xi).exp() * a);
         [self.excess(xi), share * chi * decay * v, base[0], base[1]]
+    }
+
+    /// Returns `V - V₀` at a depth in the layer or an elastic base: the displacement by a wave of
+    /// pressure, less that in a half-plane of the layer's material, as a multiple of that of the
+    /// surface of such a half-plane.
+    ///
+    /// ```text
+    /// V - V₀ = ((K - 1)((1 - 2ν₁ + ζ)e^{-ζ} + cosh ζ)
+    ///           + 2D((1 - 2ν₁) sinh ζ - ζ cosh ζ))/(2(1 - ν₁))       in the layer
+    /// V      = K(0) (A + B(1 - 2ν₂ + η)) e^{-η}/(2(1 - ν₂))          in the base
+    /// V₀     = (1 + ζ/(2(1 - ν₁))) e^{-ζ}
+    /// ```
+    pub fn displacement(&self, wavenumber: T, depth: T) -> T {
+        let (one, two) = (T::one(), T::of(2.0));
+        let [excess, slope, a, b] = self.amplitudes(wavenumber * self.thickness);
+        let [own, below] = self.ratios.map(|ratio| one - ratio - ratio);
+        let (zeta, twice) = (wavenumber * depth, one + own);
+        if depth > self.thickness {
+            let eta = wavenumber * (depth - self.thickness);
+            let in_base = (a + b * (below + eta)) * (-eta).exp() / (one + below);
+            return (one + self.at_zero) * in_base - (one + zeta / twice) * (-zeta).exp();
+        }
+        let (sinh, cosh) = (zeta.sinh(), zeta.cosh());
+        let first = excess * ((own + zeta) * (-zeta).exp() + cosh);
+        (first + two * slope * (own * sinh - zeta * cosh)) / twice
     }
 }
 

@@ -33,17 +33,33 @@
 //! δ = <h> - h_first + Σ 1/(π M_i) ∫ P (k_i(ξ) + 2 ln|ξ| - 2 G) ds
 //! ```
 //!
-//! with no singular term. **Stiffness**: `dδ/dF` is the sum alone, with the
+//! with no singular term.
+//!
+//! **Layers.** A wave of pressure of wavenumber ω presses the surface of a layer down K times as
+//! far as that of a half-plane of its material, and the reference V times; in the half-plane it
+//! would be V₀ times. With M and ν of the layer and `Z = exp(iωx) ∫ P(s) exp(-iωs) ds`,
+//!
+//! ```text
+//! ∫ P (k_i + 2 ln|ξ|) ds + 2 ∫ (F (K - 1) - Re(Z) (V - V₀))/ω dω     over ω > 0
+//! ```
+//!
+//! takes the place of the first integral, h is the gap of the [bent](crate::kernel) bodies, and the
+//! approach of one surface is less by `2/(π M_i) ∫ (K - 1) (F - Re(Z))/ω dω`. For a length ℓ, V -
+//! V₀ is `(K(0) - 1) exp(-ωℓ)`, and Z is F: far beside the contact the surface is that of the base.
+//! On a rigid base V is zero, whatever the reference. In a row of contacts the wavenumbers are
+//! `2πn/p`, and the logarithm is `ln|2 sin(πξ/p)|`: zero on average, as all waves are.
+//!
+//! **Stiffness**: `dδ/dF` is the sum alone, with the
 //! [rate](crate::LoadRates) `∂P/∂F` of the pressure in place of P; the stiffness `dF/dδ` is exact,
 //! without differences.
 
 use super::ContactState;
 use super::load_rates::LoadRates;
-use super::pressure::Pressure;
 use super::pressure_integral::{Density, Integrals};
 use super::solved::Solved;
 use super::undeformed_gap::UndeformedGap;
 use crate::gap::Sampler;
+use crate::kernel::{Bend, Periodic, RegularKernel, wavenumbers};
 use crate::material::Elasticity;
 use crate::quadrature::{Engine, Panels};
 use crate::{
@@ -72,6 +88,10 @@ impl<T: Real> Solution<'_, T> {
     /// half-widths below a contact with breakpoints. With a layer the contact is sampled once more,
     /// before the bend.
     ///
+    /// Each body approaches a reference of its own: on a rigid base that is the base, and
+    /// [`References`] are not used; beside it the other body has its own. If bodies repeat with a
+    /// [period](crate::Contact::period), it is the mean plane of their surfaces.
+    ///
     /// ```
     /// use linecontact::profile::Parabola;
     /// use linecontact::{Contact, Control, Flat, Material, PlaneState, Reference, References};
@@ -96,7 +116,9 @@ impl<T: Real> Solution<'_, T> {
     /// [`InputError::NoMaterials`] without [`Contact::materials`](crate::Contact::materials);
     /// [`InputError::InvalidReference`]; [`SolveError::OutsideBodies`]; those of
     /// [`pressure`](Self::pressure);
-    /// [`EvaluationError::Integral`](crate::EvaluationError::Integral).
+    /// [`EvaluationError::Integral`](crate::EvaluationError::Integral);
+    /// [`EvaluationError::HalfPlanesOnly`](crate::EvaluationError::HalfPlanesOnly) with a kernel
+    /// besides layers.
     pub fn approach(&self, references: &References<T>) -> Result<Approach<T>, ContactError<T>> {
         T::approach(self, references)
     }
@@ -132,42 +154,20 @@ impl<T: Real> Solution<'_, T> {
     }
 }
 
-/// Contact, elasticity of its bodies and their references: all data of the approach.
+/// Contact and both bodies with their references: all data of the approach.
 pub(crate) struct Approaching<'s, T: Real> {
     solved: Solved<'s, T>,
-    bodies: [Elasticity<T>; 2],
-    references: References<T>,
-    /// Share of each body in the bend, if its approach is absolute.
-    absolute: [Option<T>; 2],
+    x: T,
+    bodies: [Referred<T>; 2],
 }
 
-/// Returns for each body the length in its logarithm and its share in the bend, if its approach is
-/// absolute: for a layer on a rigid base, to the base; for a row of contacts, of the mean planes.
-/// Bodies without a kernel have none, and other kernels are refused.
-fn absolute_lengths<T: Real>(
-    solved: &Solved<'_, T>,
-    bodies: &[Elasticity<T>; 2],
-) -> Result<[Option<[T; 2]>; 2], ContactError<T>> {
-    let Some(bend) = solved.gap.bend() else { return Ok([None; 2]) };
-    let kernel = bend.kernel_of_bodies();
-    let is_rigid = |body: &Elasticity<T>| body.layer.map(|layer| layer.is_on_rigid());
-    let share = |i: usize| bodies[i].compliance / (bodies[0].compliance + bodies[1].compliance);
-    if let Some(period) = kernel.period_of_half_planes() {
-        // ln|2 sin(π(x - s)/p)| is zero on average.
-        return Ok([0, 1].map(|i| Some([period / T::two_pi(), share(i)])));
-    }
-    let of_layer = |i: usize| Some([kernel.absolute_length(share(i))?, T::one()]);
-    let lengths = match bodies.each_ref().map(is_rigid) {
-        [Some(true), None] => [of_layer(0), None],
-        [None, Some(true)] => [None, of_layer(1)],
-        _ => [None; 2],
-    };
-    if lengths == [None; 2] || solved.several().is_some() {
-        let quantity = "the approach (but that of one contact with one layer on a rigid base, and of half-planes with \
-                        a period)";
-        solved.of_half_planes(quantity)?;
-    }
-    Ok(lengths)
+/// Body with its reference.
+#[derive(Clone, Copy)]
+struct Referred<T> {
+    body: Elasticity<T>,
+    /// Depth of the reference, or the length in the logarithm.
+    length: T,
+    is_depth: bool,
 }
 
 /// Contact in which the bodies touched first, by its number, and the heights of the gap there.
@@ -183,35 +183,45 @@ impl<'s, T: Real> Approaching<'s, T> {
         references: &References<T>,
     ) -> Result<Self, ContactError<T>> {
         let bodies = bodies.ok_or(InputError::NoMaterials)?;
-        let mut references = *references;
-        references.x = solved.gap.folded(references.x);
-        let lengths = absolute_lengths(&solved, &bodies)?;
-        let absolute = lengths.map(|length| length.map(|[_, share]| share));
-        for (own, length) in [&mut references.lower, &mut references.upper].into_iter().zip(lengths)
-        {
-            *own = length.map_or(*own, |[length, _]| Reference::Length(length));
+        let kernel = solved.gap.bend().map(Bend::kernel_of_bodies);
+        if kernel.is_some_and(|kernel| !kernel.is_of_bodies) {
+            solved.of_half_planes("the approach (but that of layers)")?;
         }
-        let References { x, lower, upper } = references;
-        let half_width = solved.found.interval.half_width();
-        let range = solved.gap.range();
+        let References { x, lower, upper } = *references;
+        let (x, range) = (solved.gap.folded(x), solved.gap.range());
         if !(x >= range[0] && x <= range[1]) {
             return Err(SolveError::OutsideBodies { x, range }.into());
         }
-        for (reference, body) in [lower, upper].into_iter().zip(bodies) {
-            let (Reference::Depth(length) | Reference::Disc(length) | Reference::Length(length)) =
-                reference;
-            // The formula of the disc is for contacts that are small beside it.
-            let is_large = !matches!(reference, Reference::Disc(radius) if radius <= half_width);
-            let valid = length.is_finite() && length > T::zero() && is_large;
-            if !(valid || body.compliance.is_zero()) {
-                return Err(InputError::InvalidReference { length }.into());
+        let half_width = solved.found.interval.half_width();
+        let period = kernel.and_then(|kernel| kernel.row.as_ref()).map(|row| row.period);
+        let referred = |body: Elasticity<T>, reference| {
+            // A row has its mean planes, a rigid base is a reference, and a rigid body needs none.
+            let own = match (period, body.layer) {
+                (Some(period), _) => Some(period / T::two_pi()),
+                (None, Some(layer)) => layer.is_on_rigid().then_some(layer.thickness),
+                (None, None) => body.compliance.is_zero().then_some(half_width),
+            };
+            let (given, length, is_depth) = match reference {
+                Reference::Depth(depth) => (depth, depth, true),
+                Reference::Disc(radius) => (radius, T::of(2.0) * radius / T::e(), false),
+                Reference::Length(length) => (length, length, false),
+            };
+            if let Some(length) = own {
+                return Ok(Referred { body, length, is_depth: false });
             }
-        }
-        Ok(Self { solved, bodies, references, absolute })
+            // The formula of the disc is for contacts that are small beside it.
+            let is_small = matches!(reference, Reference::Disc(radius) if radius <= half_width);
+            if is_small || !(given.is_finite() && given > T::zero()) {
+                return Err(InputError::InvalidReference { length: given });
+            }
+            Ok(Referred { body, length, is_depth })
+        };
+        let bodies = [referred(bodies[0], lower)?, referred(bodies[1], upper)?];
+        Ok(Self { solved, x, bodies })
     }
 
     fn first(&self) -> Result<First<T>, ContactError<T>> {
-        let heights = |contact| UndeformedGap::new(self.solved, contact, self.references.x);
+        let heights = |contact| UndeformedGap::new(self.solved, contact, self.x);
         let mut first = First { contact: 0, heights: heights(0)? };
         if let Some(bend) = self.solved.gap.bend() {
             // The bodies touched before they were bent.
@@ -242,7 +252,7 @@ impl<'s, T: Real> Approaching<'s, T> {
             integrator.prepare(before, interval)?;
             let found = &ContactState { interval, ..*found };
             let solved = Solved { gap: before, integrator: &integrator, found, ..self.solved };
-            let least = UndeformedGap::new(solved, 0, self.references.x)?.least;
+            let least = UndeformedGap::new(solved, 0, self.x)?.least;
             let left = if self.solved.contacts().len() > 1 {
                 sampler.height(before, interval.left)?
             } else {
@@ -262,67 +272,104 @@ impl<'s, T: Real> Approaching<'s, T> {
 
     /// Sums over both bodies `1/(π M_i)` times the integral of the body, less twice the logarithm.
     fn both(&self, smooth: [T; 2], logarithm: T) -> T {
-        let [lower, upper] = smooth.map(|smooth| smooth - logarithm - logarithm);
-        let shares = self.bodies.map(|body| body.compliance);
-        (shares[0] * lower + shares[1] * upper) * T::frac_1_pi()
+        self.of_each(smooth, logarithm).into_iter().fold(T::zero(), |sum, of| sum + of)
     }
 
-    /// Returns `∫ p (k_i + 2 ln|ξ|) ds` of each body for a density without a closed form.
-    fn smooth_by_integrals(
-        &self,
-        integrals: &Integrals<T, impl Density<T>>,
-    ) -> Result<[T; 2], ContactError<T>> {
-        integrals.over(self.references.x, |distance, strength| {
-            self.kernels(distance).map(|kernel| strength * kernel)
-        })
+    /// Returns the same of each body.
+    fn of_each(&self, smooth: [T; 2], logarithm: T) -> [T; 2] {
+        let of = |i: usize| {
+            let all = self.bodies[i].body.compliance * T::frac_1_pi();
+            all * (smooth[i] - logarithm - logarithm)
+        };
+        [of(0), of(1)]
     }
 
     /// Returns `k_i + 2 ln|ξ|` of each body.
     fn kernels(&self, distance: T) -> [T; 2] {
-        let (scale, two, one) = (self.scale(), T::of(2.0), T::one());
-        let References { lower, upper, .. } = self.references;
-        [(lower, self.bodies[0]), (upper, self.bodies[1])].map(
-            |(reference, body)| match reference {
-                _ if body.compliance.is_zero() => T::zero(),
-                Reference::Depth(depth) => {
-                    let radius = depth.hypot(distance);
-                    let down = depth / radius;
-                    two * (radius / scale).ln() - down * down / (one - body.ratio)
-                }
-                Reference::Disc(radius) => two * ((two * radius / scale).ln() - one),
-                Reference::Length(length) => two * (length / scale).ln(),
-            },
-        )
+        let (scale, two) = (self.scale(), T::of(2.0));
+        self.bodies.map(|Referred { body, length, is_depth }| {
+            if !is_depth {
+                return two * (length / scale).ln();
+            }
+            let radius = length.hypot(distance);
+            let down = length / radius;
+            two * (radius / scale).ln() - down * down / (T::one() - body.ratio)
+        })
     }
 
-    /// Returns `∫ p (k_i + 2 ln|ξ|) ds` of each body.
-    fn smooth(&self, integrals: &Integrals<T, impl Density<T>>) -> Result<[T; 2], ContactError<T>> {
-        let scale = self.scale();
-        let References { x, lower, upper } = self.references;
-        let (two, one) = (T::of(2.0), T::one());
-        let [lower, upper] = [(lower, self.bodies[0]), (upper, self.bodies[1])];
-        let is_integral = |(reference, body): (Reference<T>, Elasticity<T>)| {
-            matches!(reference, Reference::Depth(_)) && !body.compliance.is_zero()
-        };
+    /// Returns `∫ p (k_i + 2 ln|ξ|) ds` of each body, as a half-plane of its surface's material.
+    fn of_half_planes(
+        &self,
+        integrals: &Integrals<T, impl Density<T>>,
+    ) -> Result<[T; 2], ContactError<T>> {
         let constant = self.kernels(T::zero()).map(|kernel| integrals.load * kernel);
-        if !(is_integral(lower) || is_integral(upper)) {
+        if !self.bodies.iter().any(|to| to.is_depth) {
             return Ok(constant);
         }
-        if let Some(potential) = Pressure::new(self.solved)?.potential()? {
-            let below =
-                |(i, (reference, body)): (usize, (Reference<T>, Elasticity<T>))| match reference {
-                    Reference::Depth(depth) if !body.compliance.is_zero() => {
-                        let [potential, pull] = potential.at(x, depth)?;
-                        let logarithm = potential - integrals.load * scale.ln();
-                        Some(two * logarithm + pull / (one - body.ratio))
-                    }
-                    _ => Some(constant[i]),
-                };
-            if let (Some(lower), Some(upper)) = (below((0, lower)), below((1, upper))) {
+        if let Some(potential) = integrals.density.potential()? {
+            let below = |i: usize| {
+                let Referred { body, length, is_depth } = self.bodies[i];
+                if !is_depth {
+                    return Some(constant[i]);
+                }
+                let [potential, pull] = potential.at(self.x, length)?;
+                let logarithm = potential - integrals.load * self.scale().ln();
+                Some(logarithm + logarithm + pull / (T::one() - body.ratio))
+            };
+            if let (Some(lower), Some(upper)) = (below(0), below(1)) {
                 return Ok([lower, upper]);
             }
         }
-        self.smooth_by_integrals(integrals)
+        let kernels = |distance, strength| self.kernels(distance).map(|kernel| strength * kernel);
+        integrals.over(self.x, kernels)
+    }
+
+    /// Returns `∫ p (k_i + 2 ln|ξ|) ds` of each body, and `2 ∫ p R_i ds` at the references.
+    fn smooth(
+        &self,
+        integrals: &Integrals<T, impl Density<T>>,
+    ) -> Result<[[T; 2]; 2], ContactError<T>> {
+        let mut sums = [self.of_half_planes(integrals)?, [T::zero(); 2]];
+        let Some(bend) = self.solved.gap.bend() else { return Ok(sums) };
+        let kernel = bend.kernel_of_bodies();
+        let loads = integrals.loads(kernel)?;
+        for (i, of) in self.bodies.iter().enumerate() {
+            let [smooth, bent] = self.of_layer(of, kernel.row.as_ref(), &loads);
+            sums[0][i] += smooth + smooth;
+            sums[1][i] = bent + bent;
+        }
+        Ok(sums)
+    }
+
+    /// Returns the sums of a body over wavenumbers, given the pressures as loads.
+    fn of_layer(&self, of: &Referred<T>, row: Option<&Periodic<T>>, loads: &[[T; 2]]) -> [T; 2] {
+        let sum = |of: &dyn Fn(T) -> T| {
+            loads.iter().fold(T::zero(), |sum, &[s, load]| sum + load * of(self.x - s))
+        };
+        let load = sum(&|_| T::one());
+        let bent = row.map_or(T::zero(), |row| sum(&|distance| row.height(distance, T::zero())));
+        let Some(layer) = of.body.layer else { return [T::zero(), bent] };
+        let Referred { length, is_depth, .. } = *of;
+        // The mean planes of a row do not depend on the base.
+        let at_zero = if row.is_some() { T::zero() } else { layer.at_zero };
+        let logarithm = if is_depth { T::zero() } else { (length / layer.thickness).ln() };
+        let mut sums = [load * at_zero * logarithm, bent];
+        let depth = if is_depth { length } else { layer.thickness };
+        // As the interface sees it, at half the distance of its image.
+        let lengths = [layer.thickness, layer.longest().max(depth)];
+        let far = loads.iter().fold(depth, |far, [s, _]| far.max((self.x - *s).abs()));
+        wavenumbers(lengths, row.map(|row| row.period), [T::zero(), far], |omega, weight| {
+            let (weight, excess) = (weight / omega, layer.excess(omega * layer.thickness));
+            let wave = sum(&|distance| (omega * distance).cos());
+            let below = if is_depth {
+                wave * layer.displacement(omega, depth)
+            } else {
+                load * at_zero * (-omega * depth).exp()
+            };
+            sums[0] += weight * (load * excess - below);
+            sums[1] += weight * excess * (load - wave);
+        });
+        sums
     }
 
     /// Returns `∫ p G ds` of a contact.
@@ -352,7 +399,7 @@ impl<'s, T: Real> Approaching<'s, T> {
             return Err(SolveError::Falls { quantity, load, rate }.into());
         }
         let integrals = Integrals::new(self.solved)?;
-        let smooth = self.smooth(&integrals)?;
+        let [smooth, _] = self.smooth(&integrals)?;
         Ok([self.of_bodies(&integrals, smooth, &self.first()?)?, rate])
     }
 
@@ -371,73 +418,57 @@ impl<'s, T: Real> Approaching<'s, T> {
     /// Returns dδ/dF: with ∂P/∂F any contact may be the first.
     pub fn rate(&self) -> Result<T, ContactError<T>> {
         let (rates, contacts) = (LoadRates::of(self.solved)?, self.solved.contacts());
-        if let (Some(bend), Some(punch)) = (self.solved.gap.bend(), rates.bent()) {
-            let integrals = Integrals::of_unit_load(&rates, contacts);
-            let logarithm = self.mean_logarithm(&integrals, contacts[0])?;
-            let smooth = self.smooth_by_integrals(&integrals)?;
-            return Ok(self.both(smooth, logarithm) - bend.mean_height(punch) / self.solved.kappa);
-        }
-        if let [on] = *contacts {
-            let References { lower, upper, .. } = self.references;
-            let [one, other] = self.bodies;
-            let punches = [self.of_punch(on, lower, one), self.of_punch(on, upper, other)];
+        let punch = self.solved.gap.bend().zip(rates.bent());
+        if let ([on], None) = (contacts, punch) {
+            let punches = self.bodies.map(|of| self.of_punch(*on, of));
             return Ok(self.both(punches, T::zero()));
         }
         let integrals = Integrals::of_unit_load(&rates, contacts);
         let logarithm = self.mean_logarithm(&integrals, contacts[0])?;
-        Ok(self.both(self.smooth(&integrals)?, logarithm))
+        let [smooth, _] = self.smooth(&integrals)?;
+        let bent = punch.map_or(T::zero(), |(bend, punch)| bend.mean_height(punch));
+        Ok(self.both(smooth, logarithm) - bent / self.solved.kappa)
     }
 
     /// Returns `∫ p (k + 2 ln|ξ| - 2 G) ds` for the pressure p of a flat punch on one contact,
     /// under a unit load. Take the ellipse through the reference with its foci at the limits, and η
     /// the logarithm of the sum of its half-axes over L: the first part is 2 η; the second is the
     /// real part of `d ∂/∂d`.
-    fn of_punch(&self, on: Interval<T>, reference: Reference<T>, body: Elasticity<T>) -> T {
-        let (one, two, half_width) = (T::one(), T::of(2.0), on.half_width());
-        match reference {
-            _ if body.compliance.is_zero() => T::zero(),
-            Reference::Disc(radius) => two * ((T::of(4.0) * radius / half_width).ln() - one),
-            Reference::Length(length) => two * (two * length / half_width).ln(),
-            Reference::Depth(depth) => {
-                let x = self.references.x;
-                let along = [x - on.left, on.right - x];
-                let radii = along.map(|along| along.hypot(depth));
-                // r less the distance along x, without cancellation.
-                let excess = |i: usize| {
-                    let (along, radius) = (along[i], radii[i]);
-                    let beside = along > T::zero();
-                    if beside { depth * (depth / (radius + along)) } else { radius - along }
-                };
-                // cosh η - 1, with cosh η = (r₁ + r₂)/(2 L), and sinh η.
-                let rise = (excess(0) + excess(1)) / (two * half_width);
-                let sinh = rise.sqrt() * (rise + two).sqrt();
-                // Next to the surface the displacement is zero to rounding.
-                if sinh.is_zero() {
-                    return sinh;
-                }
-                let eta = (rise + sinh).ln_1p();
-                // d ∂η/∂d
-                let turn =
-                    (depth / radii[0] + depth / radii[1]) * (depth / (two * half_width) / sinh);
-                two * eta - turn / (one - body.ratio)
-            }
+    fn of_punch(&self, on: Interval<T>, of: Referred<T>) -> T {
+        let Referred { body, length: depth, is_depth } = of;
+        let (one, two, half_width, x) = (T::one(), T::of(2.0), on.half_width(), self.x);
+        if !is_depth {
+            return two * (two * depth / half_width).ln();
         }
+        let along = [x - on.left, on.right - x];
+        let radii = along.map(|along| along.hypot(depth));
+        // r less the distance along x, without cancellation.
+        let excess = |i: usize| {
+            let (along, radius) = (along[i], radii[i]);
+            let beside = along > T::zero();
+            if beside { depth * (depth / (radius + along)) } else { radius - along }
+        };
+        // cosh η - 1, with cosh η = (r₁ + r₂)/(2 L), and sinh η.
+        let rise = (excess(0) + excess(1)) / (two * half_width);
+        let sinh = rise.sqrt() * (rise + two).sqrt();
+        // Next to the surface the displacement is zero to rounding.
+        if sinh.is_zero() {
+            return sinh;
+        }
+        let eta = (rise + sinh).ln_1p();
+        // d ∂η/∂d
+        let turn = (depth / radii[0] + depth / radii[1]) * (depth / (two * half_width) / sinh);
+        two * eta - turn / (one - body.ratio)
     }
 
     pub fn of_all(&self) -> Result<Approach<T>, ContactError<T>> {
         let integrals = Integrals::new(self.solved)?;
-        let (smooth, first) = (self.smooth(&integrals)?, self.first()?);
+        let [smooth, bent] = self.smooth(&integrals)?;
+        let first = self.first()?;
         let logarithm = self.logarithm(&integrals, &first)?;
-        let of = |i: usize| {
-            let all = self.bodies[i].compliance * T::frac_1_pi();
-            let bend = |share| Some((self.solved.gap.bend()?, share));
-            let bend = self.absolute[i].and_then(bend);
-            let bent =
-                bend.map_or(T::zero(), |(bend, share)| share * bend.height(self.references.x));
-            all * (smooth[i] - T::of(2.0) * logarithm) - bent / self.solved.kappa
-        };
+        let [lower, upper] = self.of_each([smooth[0] - bent[0], smooth[1] - bent[1]], logarithm);
         let bodies = self.of_bodies(&integrals, smooth, &first)?;
-        Ok(Approach { bodies, lower: of(0), upper: of(1) })
+        Ok(Approach { bodies, lower, upper })
     }
 
     /// Returns `∫ P ln|ξ| ds`.
@@ -446,7 +477,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         integrals: &Integrals<T, impl Density<T>>,
         first: &First<T>,
     ) -> Result<T, ContactError<T>> {
-        let (x, contacts) = (self.references.x, self.solved.contacts());
+        let (x, contacts) = (self.x, self.solved.contacts());
         let Some(i) = contacts.iter().position(|on| x >= on.left && x <= on.right) else {
             let scale = self.scale();
             let logarithm = |distance: T, strength: T| [strength * (distance.abs() / scale).ln()];

@@ -246,17 +246,6 @@ impl<T: Real> Pressure<'_, T> {
         Ok(CauchyTransform::of(&*integrator.panels_over(gap, *on)?, load_case))
     }
 
-    /// Returns the pressure on a single contact as seen from below; `None` for several.
-    pub(crate) fn potential(&self) -> Result<Option<Potential<T>>, ContactError<T>> {
-        let Self { gap, integrator, load_case, on, .. } = self;
-        let LoadCase { kappa, load, .. } = *load_case;
-        let panels = integrator.panels_over(gap, *on)?;
-        let [_, strengths] = panels.strengths(load_case);
-        let of =
-            |(series, is_whole)| Potential { on: *on, series, is_whole, strengths, kappa, load };
-        Ok(panels.cosines().map(of))
-    }
-
     /// Fills in the pressure unchecked, infinite where a slope jumps.
     pub(crate) fn unchecked(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
         self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())
@@ -271,6 +260,16 @@ impl<T: Real> Pressure<'_, T> {
 impl<T: Real> Density<T> for Pressure<'_, T> {
     fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
         T::density(self, x, pressures)
+    }
+
+    fn potential(&self) -> Result<Option<Potential<T>>, ContactError<T>> {
+        let Self { gap, integrator, load_case, on, .. } = self;
+        let LoadCase { kappa, load, .. } = *load_case;
+        let panels = integrator.panels_over(gap, *on)?;
+        let [_, strengths] = panels.strengths(load_case);
+        let of =
+            |(series, is_whole)| Potential { on: *on, series, is_whole, strengths, kappa, load };
+        Ok(panels.cosines().map(of))
     }
 }
 

@@ -18,8 +18,9 @@
 
 mod graded_rule;
 
+use super::potential::Potential;
 use super::solved::Solved;
-use crate::kernel::{Kernel, Spread};
+use crate::kernel::{Kernel, Loads, Spread, terms};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{ContactError, Ends, EvaluationError, Interval, Pressure, Real};
 use graded_rule::GradedRule;
@@ -38,6 +39,11 @@ const MAX_PANELS: usize = 20_000;
 pub(crate) trait Density<T: Real> {
     /// Fills in the values at places strictly inside the contacts.
     fn values(&self, x: &[T], values: &mut [T]) -> Result<(), ContactError<T>>;
+
+    /// Returns the density on a single contact as seen from below, if it has a closed form.
+    fn potential(&self) -> Result<Option<Potential<T>>, ContactError<T>> {
+        Ok(None)
+    }
 }
 
 /// Density on all contacts, ready to be integrated.
@@ -127,10 +133,18 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         }
     }
 
-    /// Returns the pressures by as many coefficients as reach a kernel.
-    pub fn spreads(&self, kernel: &Kernel<'_, T>) -> Result<Vec<Spread<T>>, ContactError<T>> {
+    /// Returns the densities as loads at nodes, for waves that fall at least half as fast as a
+    /// kernel.
+    pub fn loads(&self, kernel: &Kernel<'_, T>) -> Result<Vec<[T; 2]>, ContactError<T>> {
+        let distance = T::of(0.5) * kernel.distance();
+        Ok(Loads::of(distance, &self.spreads(distance)?).nodes)
+    }
+
+    /// Returns the densities by as many coefficients as reach a kernel with its nearest singularity
+    /// at a distance.
+    pub fn spreads(&self, distance: T) -> Result<Vec<Spread<T>>, ContactError<T>> {
         let spread = |(i, &One { on, .. }): (usize, &One<T>)| {
-            let [_, some, most] = kernel.terms(on);
+            let [_, some, most] = terms(distance, on);
             Ok(Spread { on, q: self.coefficients(i, [some, most])? })
         };
         self.contacts.iter().enumerate().map(spread).collect()

@@ -26,6 +26,10 @@
 //! [`Solution::subsurface_of`]. In the layer a sum over wavenumbers adds to the stress of the
 //! half-plane, in the base a sum is all of it. The half-plane beside it has the stress above.
 //!
+//! **Periods.** Below bodies that repeat, W has `π/p cot(π(ζ - s)/p)` for `1/(ζ - s)`: its own
+//! contacts as one period, and the rest at the nodes of the kernel. Of the mean pressure F/p a
+//! half-plane has `σ_x = σ_y = -F/p`, as on its surface; what holds its ends may add a σ_x.
+//!
 //! **Accuracy.** The integrals follow from one function of ζ = x + i y and its derivative,
 //!
 //! ```text
@@ -58,12 +62,14 @@ mod largest;
 mod layered;
 mod tension;
 
-use super::pressure_integral::Density;
+use super::pressure_integral::{Density, Integrals};
 use crate::gap::Sampler;
+use crate::kernel::Periodic;
 use crate::material::{Coating, checked_ratio};
 use crate::quadrature::panels::CauchyTransform;
 use crate::{Body, ContactError, EvaluationError, InputError, Interval, Pressure, Real, Solution};
 use layered::Layered;
+use nalgebra::Complex;
 
 /// Stress in plane strain: a pressure; tension is positive.
 ///
@@ -153,6 +159,8 @@ pub struct Subsurface<'p, T: Real> {
     transform: CauchyTransform<T>,
     /// Layer on this body.
     layered: Option<Box<Layered<T>>>,
+    /// Period of both bodies, and loads at places in it.
+    row: Option<(Periodic<T>, Vec<[T; 2]>)>,
     /// Depths at which the largest stress is looked for.
     depths: [T; 2],
     friction: T,
@@ -213,7 +221,7 @@ impl<T: Real> Solution<'_, T> {
     ///
     /// # Errors
     /// Those of [`pressure`](Self::pressure); [`EvaluationError::HalfPlanesOnly`] with a kernel
-    /// besides layers, whose stress is not known.
+    /// besides layers and periods, whose stress is not known.
     pub fn subsurface_of(&self, body: Body) -> Result<Subsurface<'_, T>, ContactError<T>> {
         T::subsurface(self, Some(body))
     }
@@ -221,12 +229,21 @@ impl<T: Real> Solution<'_, T> {
     pub(crate) fn below(&self, body: Option<Body>) -> Result<Subsurface<'_, T>, ContactError<T>> {
         let layer = self.layer(body)?;
         let (pressure, zero) = (self.pressure()?, T::zero());
-        let layered = layer.map(|layer| Layered::new(layer, self.solved()).map(Box::new));
+        let (mut layered, mut row) = (None, None);
+        if let Some(bend) = self.gap.bend() {
+            let kernel = bend.kernel_of_bodies();
+            let loads = Integrals::new(self.solved())?.loads(kernel)?;
+            let period = kernel.row.as_ref().map(|row| row.period);
+            let below = |layer| Layered::new(layer, loads.clone(), self.hull(), period);
+            layered = layer.map(|layer| Box::new(below(layer)));
+            row = kernel.row.clone().map(|row| (row, loads));
+        }
         Ok(Subsurface {
             solution: self,
             transform: pressure.cauchy_transform()?,
             pressure,
-            layered: layered.transpose()?,
+            layered,
+            row,
             depths: [zero, T::one() / zero],
             friction: zero,
             stick: None,
@@ -236,12 +253,12 @@ impl<T: Real> Solution<'_, T> {
     /// Returns the layer of a body, if it has one. Both are meant if none is named.
     fn layer(&self, body: Option<Body>) -> Result<Option<Coating<T>>, ContactError<T>> {
         let layers = self.elasticity.map_or([None; 2], |bodies| bodies.map(|body| body.layer));
-        let is_known = self.gap.bend().is_none_or(|bend| bend.kernel_of_bodies().is_of_layers);
+        let is_known = self.gap.bend().is_none_or(|bend| bend.kernel_of_bodies().is_of_bodies);
         let quantity = match body {
             Some(body) if is_known => return Ok(layers[body as usize]),
             None if is_known && layers.iter().all(Option::is_none) => return Ok(None),
             None if is_known => "the stress below the surface of both bodies at once",
-            _ => "the stress below the surface",
+            _ => "the stress below the surface (but that of layers)",
         };
         Err(EvaluationError::HalfPlanesOnly { quantity }.into())
     }
@@ -308,6 +325,7 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     pub(crate) fn stress(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
+        let x = self.solution.gap.folded(x);
         let [mut normal, along] = self.parts(x, depth, !self.friction.is_zero())?;
         if let Some(layered) = &self.layered {
             normal = layered.stress(normal, x, depth)?;
@@ -339,13 +357,25 @@ impl<T: Real> Subsurface<'_, T> {
         if depth <= T::epsilon().powi(3) * self.hull().half_width() {
             return self.on_surface(x, with_traction);
         }
-        let ([pull, by_depth], half) = (self.transform.at(x, depth), T::of(0.5));
+        let ([pull, by_depth], half) = (self.potential(x, depth), T::of(0.5));
         let a0 = half * (by_depth.re - pull.im);
         let a1 = half * by_depth.im;
         let (a2, a3) = (-half * (by_depth.re + pull.im), pull.re - a1);
         let [a0, a1, a2, a3] = [a0, a1, a2, a3].map(|a| -T::of(2.0) * T::frac_1_pi() * a);
         let normal = Stress { sigma_x: a2, sigma_y: a0, tau_xy: a1 };
         Ok([normal, Stress { sigma_x: a3, sigma_y: a1, tau_xy: a2 }])
+    }
+
+    /// Returns W and `y W'` of all periods.
+    fn potential(&self, x: T, depth: T) -> [Complex<T>; 2] {
+        let [mut pull, mut by_depth] = self.transform.at(x, depth);
+        if let Some((row, loads)) = &self.row {
+            for &[s, load] in loads {
+                let [value, slope] = row.below(x - s, depth);
+                (pull, by_depth) = (pull + value * load, by_depth + slope * (load * depth));
+            }
+        }
+        [pull, by_depth]
     }
 
     /// Returns the limits of both stresses as the depth goes to zero.
@@ -370,9 +400,10 @@ impl<T: Real> Subsurface<'_, T> {
             // A rounded edge may lie beyond the end of a body.
             let gap = &self.solution.gap;
             let [from, to] = gap.range();
-            self.solution.kappa * Sampler::default().slope(gap, x.max(from).min(to))?
+            let bent = gap.bend().map_or(T::zero(), |bend| bend.slope(x));
+            self.solution.kappa * Sampler::default().slope(gap, x.max(from).min(to))? + bent
         } else {
-            self.transform.at(x, T::zero())[0].re
+            self.potential(x, T::zero())[0].re
         };
         let zero = T::zero();
         let along = T::of(2.0) * T::frac_1_pi() * pull;

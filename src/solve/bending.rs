@@ -479,7 +479,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             Control::Moment { .. } | Control::CentreOfPressure { .. } => Kept::Moment(kappa),
             _ => Kept::Load,
         };
-        let spreads = Integrals::new(pressures)?.spreads(&self.kernel)?;
+        let spreads = Integrals::new(pressures)?.spreads(self.kernel.distance())?;
         let correction = Correction::new(&self.kernel, solved.gap.bend(), spreads, kept);
         correction.map_err(|at| {
             InputError::Kernel { what: "K(x, s), or its integral by x, is not finite at x", at }

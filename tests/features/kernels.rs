@@ -3,11 +3,13 @@
 
 use linecontact::autodiff::num_dual::Dual64;
 use linecontact::profile::Parabola;
-use linecontact::{Base, Body, Contact, Control, Flat, Layer, Material, PlaneState, Real};
+use linecontact::{
+    Base, Body, Contact, Control, Flat, Layer, Material, PlaneState, Real, Reference, References,
+};
 
-/// Returns half-width and peak under a load, stresses in layer and base and the largest tension,
-/// given E, ν, h and E of the base.
-fn answers<T: Real>([modulus, ratio, thickness, base]: [T; 4]) -> [T; 5] {
+/// Returns half-width and peak under a load, stresses in layer and base, the largest tension and
+/// approaches, given E, ν, h and E of the base.
+fn answers<T: Real>([modulus, ratio, thickness, base]: [T; 4]) -> [T; 7] {
     let of = |value: f64| T::of(value);
     let body = Parabola::new(of(1.0), [of(-6.0), of(6.0)]).unwrap();
     let base = Base::HalfPlane(Material::elastic(base, of(0.3)));
@@ -18,7 +20,13 @@ fn answers<T: Real>([modulus, ratio, thickness, base]: [T; 4]) -> [T; 5] {
     let below = solution.subsurface_of(Body::Lower).unwrap();
     let [layer, base] = [0.5, 1.2].map(|depth| below.at(of(0.3), of(depth)).unwrap());
     let tension = below.max_tension().unwrap().value;
-    [solution.a(), solution.peak().unwrap().pressure, layer.sigma_x, base.tau_xy, tension]
+    let [near, far] = [0.5, 4.0].map(|depth| {
+        let depth = Reference::Depth(of(depth));
+        let to = References { x: of(0.3), lower: depth, upper: depth };
+        solution.approach(&to).unwrap().bodies
+    });
+    let peak = solution.peak().unwrap().pressure;
+    [solution.a(), peak, layer.sigma_x, base.tau_xy, tension, near, far]
 }
 
 #[test]
@@ -31,8 +39,8 @@ fn derivatives_by_layers_against_differences() {
         let moved =
             |by: f64| answers(std::array::from_fn(|j| at[j] + if i == j { by } else { 0.0 }));
         let (fine, coarse) = ([moved(step), moved(-step)], [moved(2.0 * step), moved(-2.0 * step)]);
-        for k in 0..5 {
-            let slope = |pair: [[f64; 5]; 2], step: f64| (pair[0][k] - pair[1][k]) / (2.0 * step);
+        for k in 0..7 {
+            let slope = |pair: [[f64; 7]; 2], step: f64| (pair[0][k] - pair[1][k]) / (2.0 * step);
             let expected = (4.0 * slope(fine, step) - slope(coarse, 2.0 * step)) / 3.0;
             let off = (found[k].eps - expected).abs();
             assert!(off < 1e-9, "{i} {k}: {} {expected} {off:e}", found[k].eps);

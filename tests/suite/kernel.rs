@@ -1,6 +1,7 @@
 //! Bodies with a regular kernel, Eq. (1) in full: layers, compliances by wavenumber, formulas.
 #![allow(missing_docs)]
 
+mod approach;
 mod oracle;
 mod periodic;
 mod rates;

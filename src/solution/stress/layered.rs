@@ -10,32 +10,14 @@
 //! In the base all of φ falls like `exp(-ω y)`.
 
 use super::Stress;
-use crate::kernel::{Kernel, Loads, SurfaceCompliance, Table, wavenumbers};
+use crate::kernel::wavenumbers;
 use crate::material::Coating;
-use crate::solution::{Integrals, Solved};
-use crate::{ContactError, EvaluationError, InputError, Real};
-use std::sync::{Arc, OnceLock};
+use crate::{ContactError, EvaluationError, Interval, Real};
+use std::sync::OnceLock;
 
 /// Number of ranges of distance, each twice as wide as the one before. Beyond the last one, at 1e19
 /// times the width of the contacts, there is no stress.
 const RANGES: usize = 64;
-
-/// Compliance of a layer as the interface sees it, at half the distance of its image.
-struct AtInterface<T>(Coating<T>);
-
-impl<T: Real> SurfaceCompliance<T> for AtInterface<T> {
-    fn excess(&self, wavenumber: T) -> T {
-        self.0.excess(wavenumber * self.0.thickness)
-    }
-
-    fn decay(&self) -> T {
-        self.0.thickness
-    }
-
-    fn longest(&self) -> T {
-        self.0.longest()
-    }
-}
 
 /// Node of the integral over ω.
 struct Wave<T> {
@@ -48,30 +30,27 @@ struct Wave<T> {
 /// Pressures on a body with a layer.
 pub(super) struct Layered<T: Real> {
     pub layer: Coating<T>,
-    compliance: Arc<dyn SurfaceCompliance<T>>,
     /// Loads at places, measured from the centre c of the contacts.
     loads: Vec<[T; 2]>,
     centre: T,
     /// Half-width of the contacts, or the thickness if it is larger.
     reach: T,
+    period: Option<T>,
     waves: Vec<OnceLock<Vec<Wave<T>>>>,
 }
 
 impl<T: Real> Layered<T> {
-    pub fn new(layer: Coating<T>, solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
-        let compliance: Arc<dyn SurfaceCompliance<T>> = Arc::new(AtInterface(layer));
-        let what = "the compliance is not a positive number at ω";
-        let table =
-            Table::new(compliance.clone(), None).map_err(|at| InputError::Kernel { what, at })?;
-        let table = Some(Arc::new(table));
-        let kernel =
-            Kernel { table, formula: None, row: None, is_of_layers: true, share: T::one() };
-        let on = solved.found.interval;
-        let mut loads = Loads::of(&kernel, &Integrals::new(solved)?.spreads(&kernel)?).nodes;
+    /// Creates the stress under loads at places in an interval, or in each period.
+    pub fn new(
+        layer: Coating<T>,
+        mut loads: Vec<[T; 2]>,
+        on: Interval<T>,
+        period: Option<T>,
+    ) -> Self {
         loads.iter_mut().for_each(|[s, _]| *s -= on.centre());
         let reach = on.half_width().max(layer.thickness);
         let waves = (0..RANGES).map(|_| OnceLock::new()).collect();
-        Ok(Self { layer, compliance, loads, centre: on.centre(), reach, waves })
+        Self { layer, loads, centre: on.centre(), reach, period, waves }
     }
 
     /// Returns the stress at a depth, given that of a half-plane.
@@ -126,7 +105,7 @@ impl<T: Real> Layered<T> {
     /// Returns the nodes for places at a distance from the centre.
     fn waves(&self, distance: T) -> &[Wave<T>] {
         let (mut range, mut far) = (0, self.reach + self.reach);
-        while distance > far && range < RANGES {
+        while distance > far && range < RANGES && self.period.is_none() {
             (range, far) = (range + 1, far + far);
         }
         self.waves.get(range).map_or(&[], |waves| waves.get_or_init(|| self.made(range, far)))
@@ -137,7 +116,7 @@ impl<T: Real> Layered<T> {
         let near = T::of(0.5) * T::of(0.5).sqrt() * (far - T::of(2.0) * self.reach);
         let near = if range < 2 { T::zero() } else { near };
         let mut waves = Vec::new();
-        wavenumbers(&*self.compliance, None, [near, far + self.reach], |omega, weight| {
+        let mut add = |omega: T, weight: T| {
             let (weight, mut pressure) = (T::frac_1_pi() * weight, [T::zero(); 2]);
             for &[s, load] in &self.loads {
                 let (sin, cos) = (omega * s).sin_cos();
@@ -146,7 +125,13 @@ impl<T: Real> Layered<T> {
             }
             let amplitudes = self.layer.amplitudes(omega * self.layer.thickness);
             waves.push(Wave { omega, pressure: pressure.map(|part| weight * part), amplitudes });
-        });
+        };
+        // Half of the mean pressure belongs to either side of ω = 0, where K may be 0/0.
+        if let Some(step) = self.period.map(|period| T::two_pi() / period) {
+            add(T::epsilon() * step, T::of(0.5) * step);
+        }
+        let lengths = [self.layer.thickness, self.layer.longest()];
+        wavenumbers(lengths, self.period, [near, far + self.reach], add);
         waves
     }
 }

@@ -1,6 +1,7 @@
 //! Eq. (1) by sums that share nothing with the solver but the pressures.
 
-use linecontact::{Base, Cost, Interval, Layer, Material, Solution};
+use crate::integrals::{integral, strength};
+use linecontact::{Base, Cost, Foundation, Interval, Layer, Material, Reference, Solution};
 use std::f64::consts::PI;
 
 /// σz, τ, X, Z and σx at a depth z of a displacement `(iX, Z) exp(ix)` that solves Navier's
@@ -148,11 +149,12 @@ fn waves(
 }
 
 /// Stress σx, σz, τ at places (x, depth), below the surface of a body with a layer, by a direct
-/// sum. The depths must not be small beside the thickness.
+/// sum, over all periods if there is one. The depths must not be small beside the thickness.
 pub fn stresses(
     solution: &Solution<'_, f64>,
     layer: &Layer<f64>,
     places: &[[f64; 2]],
+    period: Option<f64>,
 ) -> Vec<[f64; 3]> {
     let hull = solution.hull();
     let far = places.iter().fold(hull.right - hull.left, |far, [x, _]| {
@@ -164,8 +166,23 @@ pub fn stresses(
     let rule = [(0.01 / length(layer)).min(widest), widest, 32.0 / shallowest];
     // The rule along x is exact for polynomials of twice as many terms.
     let loads = loads(solution, 100 + (16.0 / shallowest * (hull.right - hull.left)) as usize);
+    let waves: Vec<_> = match period {
+        None => waves(&loads, rule).collect(),
+        Some(period) => {
+            // The mean pressure is the limit of long waves: extrapolated, of the weight 1/2.
+            let step = 2.0 * PI / period;
+            let limit = [4.0, -6.0, 4.0, -1.0].into_iter().zip(1..);
+            let limit = limit.map(|(weight, n)| (3e-4 * f64::from(n), 0.5 * weight));
+            let others = (1..).map(|n| (step * f64::from(n), 1.0));
+            let others = others.take_while(|(omega, _)| *omega < rule[2]);
+            let of = |(omega, weight): (f64, f64)| {
+                (omega, transform(&loads, omega).map(|part| step * weight * part))
+            };
+            limit.chain(others).map(of).collect()
+        }
+    };
     let mut sums = vec![[0.0; 3]; places.len()];
-    for (omega, [re, im]) in waves(&loads, rule) {
+    for (omega, [re, im]) in waves {
         let wave = Wave::new(layer, omega);
         for (sum, [x, depth]) in sums.iter_mut().zip(places) {
             let [normal, shear, _, _, along] = wave.at(omega * depth);
@@ -241,4 +258,80 @@ fn transform(loads: &[(usize, f64, f64)], omega: f64) -> [f64; 2] {
     loads.iter().fold([0.0; 2], |[re, im], (_, s, load)| {
         [re + load * (omega * s).cos(), im - load * (omega * s).sin()]
     })
+}
+
+/// Returns the approach of the surface of a body at x to a reference, to the rigid base of its
+/// layer, or with a period to its mean plane: that of a half-plane of the same material by the
+/// pressures, and the rest by a sum over wavenumbers.
+pub fn approach(
+    solution: &Solution<'_, f64>,
+    body: Foundation<f64>,
+    x: f64,
+    reference: Reference<f64>,
+    period: Option<f64>,
+) -> f64 {
+    let (material, layer) = match body {
+        Foundation::Layer(layer) => (layer.material, Some(layer)),
+        Foundation::HalfPlane(material) => (material, None),
+        _ => panic!("{body:?}"),
+    };
+    let Material::Elastic { youngs_modulus, poisson_ratio: nu } = material else { return 0.0 };
+    let thickness = layer.map_or(f64::INFINITY, |layer| layer.thickness);
+    let is_elastic = layer.is_none_or(|layer| matches!(layer.base, Base::HalfPlane(_)));
+    let depth = match reference {
+        Reference::Depth(depth) if is_elastic => depth,
+        _ => thickness,
+    };
+    let kernel = |s: f64| match (period, reference) {
+        (Some(period), _) => -2.0 * (2.0 * (PI * (x - s) / period).sin()).abs().ln(),
+        (None, Reference::Length(length)) if layer.is_none() => 2.0 * (length / (x - s).abs()).ln(),
+        _ => {
+            let squares = depth * depth + (x - s).powi(2);
+            (depth * depth / (x - s).powi(2)).ln_1p() - depth * depth / ((1.0 - nu) * squares)
+        }
+    };
+    let pressure = solution.pressure().unwrap();
+    let half_plane: f64 = solution.intervals().iter().fold(0.0, |sum, &on| {
+        let density = |s: f64| {
+            let is_inside = s > on.left && s < on.right && s != x;
+            if is_inside { pressure.at(s).unwrap_or(0.0) * kernel(s) } else { 0.0 }
+        };
+        sum + integral(on, &[x], strength(on, density))
+    });
+    let compliance = 2.0 * (1.0 - nu * nu) / youngs_modulus;
+    let half_plane = compliance / (2.0 * PI) * half_plane;
+    let Some(layer) = layer else { return half_plane };
+    let plain = |depth: f64| compliance * (1.0 + depth / (2.0 * (1.0 - nu))) * (-depth).exp();
+    let loads = loads(solution, 200);
+    let far = loads.iter().fold(depth, |far, (_, s, _)| far.max((x - s).abs()));
+    let widest = 0.1 / far.max(thickness);
+    let rule = [(0.01 / length(&layer)).min(widest), widest, 32.0 / thickness];
+    let term = |omega: f64, [re, im]: [f64; 2], load: f64| {
+        let (wave, (sin, cos)) = (Wave::new(&layer, omega), (omega * x).sin_cos());
+        let here = re * cos - im * sin;
+        let to = match (layer.base, reference) {
+            _ if period.is_some() => 0.0,
+            (Base::HalfPlane(_), Reference::Depth(_)) => here * wave.at(omega * depth)[3],
+            (Base::HalfPlane(base), Reference::Length(length)) => {
+                let Material::Elastic { youngs_modulus, poisson_ratio } = base else { panic!() };
+                let compliance = 2.0 * (1.0 - poisson_ratio * poisson_ratio) / youngs_modulus;
+                load * compliance * (-omega * length).exp()
+            }
+            _ => 0.0,
+        };
+        let below = if period.is_some() { 0.0 } else { plain(omega * depth) };
+        (here * (wave.at(0.0)[3] - plain(0.0) + below) - to) / (PI * omega)
+    };
+    let rest: f64 = match period {
+        Some(_) => {
+            let waves = wavenumbers(&loads, solution.hull(), &[(1.0, layer)], period);
+            waves.into_iter().map(|(omega, part)| term(omega, part, 0.0)).sum()
+        }
+        None => {
+            let whole = [(0, 0.0, solution.load())];
+            let waves = waves(&loads, rule).zip(waves(&whole, rule));
+            waves.map(|((omega, part), (_, [load, _]))| term(omega, part, load)).sum()
+        }
+    };
+    half_plane + rest
 }

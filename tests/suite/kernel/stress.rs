@@ -1,16 +1,17 @@
 //! Stress in a layer and its base.
 
 use super::oracle::stresses;
+use super::periodic::{PERIOD, row, waves};
 use super::scenes::random_layer;
 use super::{RIGID, coated, half_plane, layer, parabola};
 use crate::common::{NanSafe, graph, join, worst};
 use crate::random_scenes::Dice;
 use linecontact::stress::Subsurface;
 use linecontact::{
-    Base, Body, Contact, ContactError, Control, Edge, EvaluationError, Flat, Layer, Material,
-    Solution,
+    Base, Body, Contact, ContactError, Control, Edge, EvaluationError, Flat, Foundation, Layer,
+    Material, Solution,
 };
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 const BASES: [Base<f64>; 3] = [Base::Bonded, Base::Frictionless, Base::HalfPlane(STEEL)];
 const STEEL: Material<f64> = Material::Elastic { youngs_modulus: 0.3, poisson_ratio: 0.35 };
@@ -60,7 +61,7 @@ fn random_layers_have_the_stress_of_a_direct_sum() {
         }
         let below = solution.subsurface_of(Body::Lower).unwrap();
         let peak = solution.peak().unwrap().pressure;
-        let expected = stresses(&solution, &one, &places);
+        let expected = stresses(&solution, &one, &places, None);
         let off = most(places.iter().zip(&expected).flat_map(|(&[x, depth], expected)| {
             let found = at(&below, x, depth);
             let size = peak.max(most(*expected));
@@ -207,7 +208,7 @@ fn two_contacts_of_coated_bodies() {
     for (of, one) in [Body::Lower, Body::Upper].into_iter().zip(pair) {
         let below = solution.subsurface_of(of).unwrap();
         let places = [[-1.0, 0.2], [0.1, 0.25], [0.9, 0.3], [1.6, 0.15]];
-        let expected = stresses(&solution, &one, &places);
+        let expected = stresses(&solution, &one, &places, None);
         let off = most(places.iter().zip(&expected).flat_map(|(&[x, depth], expected)| {
             let found = at(&below, x, depth);
             [0, 1, 2].map(|i| found[i] - expected[i])
@@ -351,7 +352,7 @@ fn corners_and_kinks() {
     let punch = punch.solve(Control::Load(1.0)).unwrap();
     let below = punch.subsurface_of(Body::Lower).unwrap();
     let places = [[0.0, 0.2], [0.99, 0.4], [-1.2, 0.3], [0.5, 0.9]];
-    let expected = stresses(&punch, &coating, &places);
+    let expected = stresses(&punch, &coating, &places, None);
     let off = most(places.iter().zip(&expected).flat_map(|(&[x, depth], expected)| {
         let found = at(&below, x, depth);
         [0, 1, 2].map(|i| found[i] - expected[i])
@@ -373,4 +374,83 @@ fn corners_and_kinks() {
         let off = most([one[1] - other[1], one[2] - other[2]]);
         assert!(off < 1e-13, "{x}: {off:e}");
     }
+}
+
+/// Below a period, plain bodies and bodies with layers: one to several contacts.
+#[test]
+fn stress_below_a_period() {
+    let body = waves(0.1, &[[0.02, 3.0, 0.0], [0.012, 1.0, 0.4]]);
+    let none = layer(2.0, 0.25, 0.2, half_plane(2.0, 0.25));
+    let pair = [layer(1.0, 0.3, 0.1, half_plane(0.3, 0.4)), layer(3.0, 0.4, 0.3, Base::Bonded)];
+    let slip = layer(1.0, 0.2, 0.15, Base::Frictionless);
+    let plain = Material::elastic(2.0, 0.25);
+    let cases: [([Foundation<f64>; 2], [Layer<f64>; 2]); 3] = [
+        ([plain.into(), RIGID.into()], [none; 2]),
+        ([pair[0].into(), pair[1].into()], pair),
+        ([slip.into(), plain.into()], [slip, none]),
+    ];
+    for ([lower, upper], oracle) in cases {
+        let contact = coated(&body, lower, upper).period(PERIOD);
+        for load in [1e-3, 0.03] {
+            let solution = contact.solve(Control::Load(load)).unwrap();
+            let peak = solution.peak().unwrap().pressure;
+            for (of, one) in [Body::Lower, Body::Upper].into_iter().zip(oracle) {
+                let mut places = vec![[0.9, 0.03], [1.3, 0.07], [0.6, 0.05], [1.25, 0.1]];
+                if let Base::HalfPlane(_) = one.base {
+                    places.extend([[1.9, 0.31], [0.88, 0.7], [1.0, 3.0], [1.0, 9.0]]);
+                }
+                let below = solution.subsurface_of(of).unwrap();
+                let expected = stresses(&solution, &one, &places, Some(PERIOD));
+                let off = most(places.iter().zip(&expected).flat_map(|(&[x, depth], expected)| {
+                    let found = at(&below, x, depth);
+                    let next = at(&below, x - 3.0 * PERIOD, depth);
+                    [0, 1, 2].map(|i| {
+                        (found[i] - expected[i]).abs().nan_max(1e2 * (next[i] - found[i]).abs())
+                            / peak
+                    })
+                }));
+                assert!(off < 1e-9, "{of} {load} {one:?}: {off:e}");
+                // The surface bears the pressure, next to the surface as on it.
+                for x in [0.88, 1.29, 0.5, 1.29 + PERIOD] {
+                    let pressure = solution.pressure().unwrap().at(x).unwrap_or(0.0);
+                    let (on, under) = (at(&below, x, 0.0), at(&below, x, 1e-13));
+                    let off = most(
+                        [0, 1, 2].map(|i| on[i] - under[i]).into_iter().chain([on[1] + pressure]),
+                    );
+                    assert!(off < 1e-10 * peak, "{x}: {off:e}");
+                }
+            }
+        }
+    }
+}
+
+/// Friction below a period: on the surface `σ_x = -P - 2μ κ g/π`.
+#[test]
+fn friction_below_a_period() {
+    let body = waves(0.1, &[[0.02, 1.0, 0.0]]);
+    let solution = row(&body).solve(Control::Load(0.03)).unwrap();
+    let below = solution.subsurface().unwrap().friction(0.3).unwrap();
+    let [on] = *solution.intervals() else { panic!() };
+    for share in [-0.9, 0.1, 0.6] {
+        let x = on.centre() + share * on.half_width();
+        let pressure = solution.pressure().unwrap().at(x).unwrap();
+        let slope = 0.02 * TAU / PERIOD * (TAU * x / PERIOD).sin();
+        for (depth, allowed) in [(0.0, 1e-14), (1e-12, 1e-9)] {
+            let [along, normal, shear] = at(&below, x + PERIOD, depth);
+            let off =
+                most([along + pressure + 0.3 * slope, normal + pressure, shear + 0.3 * pressure]);
+            assert!(off < allowed, "{x} {depth}: {off:e}");
+        }
+    }
+    // Far below, the mean of all.
+    let mean = -0.03 / PERIOD;
+    let off =
+        most(at(&below, 0.3, 40.0).into_iter().zip([mean, mean, 0.3 * mean]).map(|(a, b)| a - b));
+    assert!(off < 1e-15, "{off:e}");
+    // One contact far from the next ones is Hertz's.
+    let narrow = row(&body).solve(Control::HalfWidth(1e-4 * PERIOD)).unwrap();
+    let shear = narrow.subsurface().unwrap().max_shear().unwrap();
+    let share = shear.value / narrow.peak().unwrap().pressure;
+    assert!((share - 0.300_283_1).abs() < 1e-6, "{share}");
+    assert!((shear.depth / narrow.a().min(1e-4 * PERIOD) - 0.786).abs() < 1e-2, "{shear:?}");
 }
