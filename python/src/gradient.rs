@@ -5,7 +5,8 @@ use crate::control::{Prescribed, ReferenceRow, control_of, references_of};
 use crate::profile::{AsTheyAre, Lift, Rate, Varied};
 use crate::quantity::{Asked, Quantity};
 use crate::scene::Scene;
-use linecontact::{ContactError, Control, Real, References, Solution, Solver};
+use crate::solution::body;
+use linecontact::{Body, ContactError, Control, Real, References, Solution, Solver};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -20,16 +21,18 @@ pub fn gradient(
     scene: Bound<'_, Scene>,
     prescribed: Prescribed,
     to: Option<ReferenceRow>,
+    of: Option<&str>,
     wanted: Vec<String>,
     by: Vec<Vec<Rate>>,
 ) -> PyResult<Found> {
-    let scene = scene.get();
+    let (scene, below) = (scene.get(), of.map(body).transpose()?);
     let wanted: Vec<Quantity> =
         wanted.iter().map(|name| Quantity::differentiable(name)).collect::<PyResult<_>>()?;
     // First without derivatives: errors of the scene then name plain numbers.
     let (control, between) = given(&prescribed, to.as_ref(), &mut AsTheyAre)?;
-    let values =
-        call::library(py, || numbers(&scene.contact.solve(control)?, between.as_ref(), &wanted))?;
+    let values = call::library(py, || {
+        numbers(&scene.contact.solve(control)?, between.as_ref(), below, &wanted)
+    })?;
     // The values are the same for all parameters, so that the contact is found at once.
     let mut solver = Solver::new();
     let mut derivatives = Vec::with_capacity(by.len());
@@ -40,7 +43,7 @@ pub fn gradient(
         let (control, between) = given(&prescribed, to.as_ref(), &mut lift)?;
         known(rates, &lift)?;
         let found = call::library(py, || {
-            numbers(&solver.solve(&contact, control)?, between.as_ref(), &wanted)
+            numbers(&solver.solve(&contact, control)?, between.as_ref(), below, &wanted)
         })?;
         derivatives.push(found.iter().map(|number| number.eps).collect());
     }
@@ -95,8 +98,9 @@ fn known(rates: &[Rate], lift: &Varied<'_>) -> PyResult<()> {
 fn numbers<T: Real>(
     solution: &Solution<'_, T>,
     between: Option<&References<T>>,
+    below: Option<Body>,
     wanted: &[Quantity],
 ) -> Result<Vec<T>, ContactError<T>> {
-    let asked = Asked::of(solution, between);
+    let asked = Asked::of(solution, between, below);
     wanted.iter().map(|&quantity| asked.value(quantity)).collect()
 }

@@ -1,7 +1,7 @@
 //! Numbers of a solution by name: the columns of a sweep, and the numbers that have a gradient.
 
 use linecontact::stress::StressPeak;
-use linecontact::{ContactError, Peak, Real, References, Solution, Uncertainty};
+use linecontact::{Body, ContactError, Peak, Real, References, Solution, Uncertainty};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::cell::OnceCell;
@@ -76,6 +76,7 @@ impl Quantity {
 pub struct Asked<'s, T: Real> {
     solution: &'s Solution<'s, T>,
     references: Option<&'s References<T>>,
+    body: Option<Body>,
     peak: OnceCell<Peak<T>>,
     shear: OnceCell<StressPeak<T>>,
     uncertainty: OnceCell<Uncertainty<T>>,
@@ -89,10 +90,15 @@ fn once<V: Copy, E>(cell: &OnceCell<V>, make: impl FnOnce() -> Result<V, E>) -> 
 }
 
 impl<'s, T: Real> Asked<'s, T> {
-    pub fn of(solution: &'s Solution<'s, T>, references: Option<&'s References<T>>) -> Self {
+    pub fn of(
+        solution: &'s Solution<'s, T>,
+        references: Option<&'s References<T>>,
+        body: Option<Body>,
+    ) -> Self {
         Self {
             solution,
             references,
+            body,
             peak: OnceCell::new(),
             shear: OnceCell::new(),
             uncertainty: OnceCell::new(),
@@ -104,7 +110,10 @@ impl<'s, T: Real> Asked<'s, T> {
     }
 
     fn shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
-        once(&self.shear, || self.solution.subsurface()?.max_shear())
+        once(&self.shear, || match self.body {
+            Some(body) => self.solution.subsurface_of(body)?.max_shear(),
+            None => self.solution.subsurface()?.max_shear(),
+        })
     }
 
     fn uncertainty(&self) -> Result<Uncertainty<T>, ContactError<T>> {

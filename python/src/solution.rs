@@ -93,7 +93,7 @@ fn stresses(
     Ok(found)
 }
 
-fn body(name: &str) -> PyResult<Body> {
+pub fn body(name: &str) -> PyResult<Body> {
     match name {
         "lower" => Ok(Body::Lower),
         "upper" => Ok(Body::Upper),

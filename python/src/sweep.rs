@@ -5,7 +5,8 @@ use crate::control::{ReferenceRow, control, references};
 use crate::errors;
 use crate::quantity::{Asked, NAMES, Quantity};
 use crate::scene::Scene;
-use linecontact::{ContactError, Control, EvaluationError, References, Solver};
+use crate::solution::body;
+use linecontact::{Body, ContactError, Control, EvaluationError, References, Solver};
 use numpy::PyArrayLike1;
 use pyo3::exceptions::{PyException, PyValueError};
 use pyo3::prelude::*;
@@ -36,14 +37,14 @@ fn row(
     solver: &mut Solver<f64>,
     &Row { scene, control }: &Row<'_>,
     wanted: &[Quantity],
-    between: Option<&References<f64>>,
+    (between, below): (Option<&References<f64>>, Option<Body>),
 ) -> Found {
     let mut numbers = vec![f64::NAN; wanted.len()];
     let mut failed = None;
     match solver.solve(&scene.contact, control) {
         Err(error) => failed = Some(error),
         Ok(solution) => {
-            let asked = Asked::of(&solution, between);
+            let asked = Asked::of(&solution, between, below);
             for (number, &quantity) in numbers.iter_mut().zip(wanted) {
                 match asked.value(quantity) {
                     Ok(value) => *number = value,
@@ -93,6 +94,7 @@ pub fn sweep(
     kind: &str,
     numbers: Vec<Numbers<'_>>,
     to: Option<ReferenceRow>,
+    of: Option<&str>,
     wanted: Vec<String>,
     threads: usize,
     progress: Option<Py<PyAny>>,
@@ -100,7 +102,7 @@ pub fn sweep(
     let wanted: Vec<Quantity> =
         wanted.iter().map(|name| Quantity::named(name)).collect::<PyResult<_>>()?;
     let prescribed_references = if kind == "approach" { to.clone() } else { None };
-    let between = to.map(references).transpose()?;
+    let (between, below) = (to.map(references).transpose()?, of.map(body).transpose()?);
     let mut rows = Vec::with_capacity(which.as_array().len());
     for (i, &scene) in which.as_array().iter().enumerate() {
         let numbers = numbers.iter().map(|of_all| of_all.as_array()[i]).collect();
@@ -108,7 +110,7 @@ pub fn sweep(
         rows.push(Row { scene: scenes[scene].get(), control });
     }
     let mut found = in_parallel(py, &rows, threads, progress, |stop, solver, scene| {
-        row(stop, solver, scene, &wanted, between.as_ref())
+        row(stop, solver, scene, &wanted, (between.as_ref(), below))
     })?;
 
     let ends = |(_, failed): &Found| match failed {

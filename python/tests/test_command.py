@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 from unittest.mock import Mock
 
 import numpy as np
@@ -21,6 +21,7 @@ from scenes import Array
 
 import linecontact as lc
 from linecontact import command, sheet
+from linecontact.below import Below
 from linecontact.files import Scene
 
 DOCS = Path(__file__).parents[2] / "docs" / "python.md"
@@ -111,7 +112,7 @@ def test_the_sheet_of_a_certified_contact_says_that_it_is_proved(run: Run) -> No
 
 @pytest.mark.parametrize("ratio", [0.0, 0.1, 0.2, 0.24, 0.26, 0.3, 0.5])
 def test_tresca_is_the_largest_difference_of_principal_stresses(ratio: float) -> None:
-    found = sheet.largest_tresca(HERTZ, ratio)
+    found = sheet.largest_tresca(HERTZ, Below("", None, None, ratio))
     t = np.linspace(0.0, 2.0, 200_001)
     x, y = on_the_axis(t)
     spread = np.ptp([x, y, ratio * (x + y)], axis=0)
@@ -126,7 +127,7 @@ def test_tresca_is_looked_for_below_all_contacts() -> None:
     solution = lc.solve(lc.Flat(), body, kappa=1.0, load=1.0)
     mirrored = lc.solve(lc.Flat(), body.mirrored(), kappa=1.0, load=1.0)
     assert len(solution.intervals) == 2
-    found, want = sheet.largest_tresca(solution, 0.0), sheet.largest_tresca(mirrored, 0.0)
+    found, want = (sheet.largest_tresca(one, Below("", None, None, 0.0)) for one in (solution, mirrored))
     assert math.isclose(found.value, want.value, rel_tol=1e-9) and math.isclose(found.x, -want.x, abs_tol=1e-4)
 
 
@@ -146,8 +147,62 @@ def test_a_layer_and_what_is_not_known_of_it(run: Run) -> None:
         assert code == 0 and numbers(text)["half-width"] == float(f"{scene.contact.solve(load=1.0).half_width:.6g}")
         assert re.search(r"^lower layer +E = 5 MPa, Poisson's ratio 0.48, 0.5 mm thick$", text, re.MULTILINE)
         assert re.search(rf"^lower base +{said}$", text, re.MULTILINE)
-        assert re.search("^not known of layers .*the stress below the surface", text, re.MULTILINE)
+        assert re.search("^not known of layers +the uncertainty$", text, re.MULTILINE)
         assert "without materials" not in text
+
+
+HARD = lc.Layer(lc.Material(400e3, 0.2), 0.01, lc.Material(100e3, 0.35))
+
+
+def test_largest_stresses_are_those_of_the_material_that_has_them(run: Run, tmp_path: Path) -> None:
+    scene, file = roller({"load": 500.0}, lower=HARD), tmp_path / "out.csv"
+    solution = scene.contact.solve(load=500.0)
+    below = math.nextafter(0.01, 1.0), math.inf
+    parts: dict[str, tuple[Literal["lower", "upper"], tuple[float, float], float]] = {
+        "lower layer": ("lower", (0.0, 0.01), 0.2),
+        "lower base": ("lower", below, 0.35),
+        "upper body": ("upper", (0.0, math.inf), 0.3),
+    }
+    found = {}
+    for words, (body, depths, ratio) in parts.items():
+        shear = solution.max_shear(body=body, depths=depths)
+        mises = solution.max_von_mises(ratio, body=body, depths=depths)
+        found[words] = shear.value, mises.value
+    code, text, _ = run(scene, "--csv", file)
+    assert code == 0
+    with file.open(newline="") as of:
+        [row] = csv.DictReader(of)
+    for i, (name, label) in enumerate([("max_shear", "largest shear in plane"), ("von_mises", "largest von Mises stress")]):
+        words = max(found, key=lambda words: found[words][i])
+        assert row[f"{name}_in"] == words and math.isclose(float(row[f"{name} [MPa]"]), found[words][i], rel_tol=1e-14)
+        assert re.search(rf"^{label} .*depth .* mm, {words}$", text, re.MULTILINE)
+    # Twice the largest shear, or more.
+    assert float(row["tresca [MPa]"]) >= 2 * found["lower layer"][0] and row["tresca_in"] == "lower layer"
+
+
+def test_fields_of_both_bodies(run: Run, tmp_path: Path) -> None:
+    rubber = lc.Layer(lc.Material(5.0, 0.48), 0.2, "bonded")
+    for lower, deepest in ((HARD, math.inf), (rubber, 0.2)):
+        scene = roller({"load": 1.0}, {"load": 2.0}, lower=lower)
+        assert run(scene, "--npz", tmp_path / "out.npz", "--vtk", tmp_path / "out.vtk")[0] == 0
+        with np.load(tmp_path / "out.npz") as arrays:
+            found = dict(arrays)
+        solution = scene.contact.solve(load=2.0)
+        sides: list[Literal["lower", "upper"]] = ["lower", "upper"]
+        for body in sides:
+            x, depth = found[f"{body}_field_x"][1], found[f"{body}_depth"][1][:, None]
+            assert depth[-1] == min(2.001 * solution.half_width, deepest if body == "lower" else math.inf)
+            stress = solution.stress(x, depth, body=body)
+            np.testing.assert_allclose(found[f"{body}_sigma_x"][1], stress.sigma_x, rtol=1e-13)
+            layer = lower if body == "lower" else lc.Layer(STEEL, 1.0, STEEL)
+            base = 0.35 if body == "lower" else 0.3
+            ratio = np.where(depth <= layer.thickness, layer.material.poisson_ratio, base)
+            share = (0.5 - ratio) * (stress.sigma_x + stress.sigma_y)
+            want = np.hypot(share, 3**0.5 * stress.max_shear())
+            np.testing.assert_allclose(found[f"{body}_von_mises"][1], want, rtol=1e-12)
+            points, fields = vtk(tmp_path / f"out_{body}_0002.vtk")
+            np.testing.assert_allclose(-points[:, 0, 1], depth[:, 0], rtol=1e-15)
+            np.testing.assert_allclose(-fields["tau_xy"], stress.tau_xy, rtol=1e-13)
 
 
 def test_the_softer_ratio_and_the_plane_count(run: Run) -> None:

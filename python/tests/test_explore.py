@@ -8,7 +8,7 @@ import math
 import re
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -313,6 +313,27 @@ class Hostile:
 
     def __repr__(self) -> str:
         return "</script><script>alert(1)</script>" + "y" * 1000
+
+
+def test_the_shear_of_a_body_with_a_layer(tmp_path: Path) -> None:
+    materials = (STEEL, lc.Layer(lc.Material(5.0, 0.48), 0.05, "bonded"))
+    contact = lc.Contact(FLAT, BODY, materials=materials)
+    solution = contact.solve(load=0.1)
+    sides: list[tuple[Literal["lower", "upper"] | None, Literal["lower", "upper"]]]
+    sides = [(None, "upper"), ("lower", "lower"), ("upper", "upper")]
+    for body, shown in sides:
+        data = read(lc.explore(contact, 0.1, tmp_path / "page.html", body=body))
+        [frame] = data["frames"]
+        assert data["below"] == shown
+        assert frame["shear"]["value"] == solution.max_shear(body=shown).value
+        x, depth, shear = shear_of(frame["field"])
+        inside = (depth > 0.0) & (depth <= (0.05 if shown == "upper" else math.inf))
+        want = solution.stress(x, depth[inside, None], body=shown).max_shear()
+        np.testing.assert_allclose(shear[inside], want, atol=frame["field"]["unit"])
+        assert np.all(shear[~inside & (depth > 0.0)] == 0.0)
+    rigid = lc.Contact(FLAT, BODY, materials=(lc.Material.rigid(), materials[1]))
+    with pytest.raises(ValueError, match="the lower body is rigid"):
+        lc.explore(rigid, 0.1, tmp_path / "page.html", body="lower")
 
 
 def test_titles_and_names_are_words(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ import signal
 import sys
 import threading
 import time
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -155,6 +155,22 @@ class Fails:
         if np.any((np.abs(x) > self.beyond) & (np.abs(x) < 1.0)):
             raise RuntimeError("mine")
         return x, x**2 / 2, 1.0, x
+
+
+def test_the_shear_of_a_body_with_a_layer() -> None:
+    steel = lc.Material(210e3, 0.3)
+    contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), materials=(lc.Layer(steel, 0.02, "bonded"), steel))
+    sides: list[Literal["lower", "upper"]] = ["lower", "upper"]
+    for body in sides:
+        found = lc.sweep(contact, quantities="max_shear", body=body, load=[50.0, 100.0])
+        for load, value in zip((50.0, 100.0), found["max_shear"], strict=True):
+            want = contact.solve(load=load).max_shear(body=body).value
+            assert math.isclose(value, want, rel_tol=1e-10)
+            (one, slope) = lc.gradient(contact, "max_shear", "load", body=body, load=load)
+            assert math.isclose(one, want, rel_tol=1e-12) and slope > 0.0
+    assert lc.sweep(contact, quantities="max_shear", load=50.0)["error"] == ["HalfPlanesOnlyError"]
+    with pytest.raises(ValueError, match="'lower' or 'upper'"):
+        lc.sweep(contact, body="both", load=50.0)  # type: ignore[arg-type]
 
 
 def test_an_exception_of_a_function_is_that_of_its_row() -> None:

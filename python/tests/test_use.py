@@ -505,6 +505,20 @@ def test_pictures() -> None:
         assert shear.yaxis_inverted()
 
 
+def test_the_shear_of_each_body_with_layers() -> None:
+    figure = LAYERED.solve(load=100.0).plot(("mm", "MPa"))
+    assert [axes.get_ylabel() for axes in figure.axes[2:]] == [
+        "depth / mm",
+        "depth / mm",
+        "largest shear in lower body / MPa",
+        "largest shear in upper body / MPa",
+    ]
+    # Down to the rigid base.
+    assert figure.axes[3].get_ylim()[0] == 0.02
+    alone = lc.Contact(FLAT, BODY, materials=(lc.Material.rigid(), lc.Layer(STEEL, 0.02, STEEL)))
+    assert len(alone.solve(load=100.0).plot().axes) == 4
+
+
 def test_heights_of_a_place_that_is_met_at_once() -> None:
     # The other places take a further step, and zero is bounded from one side by zero.
     np.testing.assert_allclose(BODY.heights([0.0, 1e-150, -2e-150]), [0.0, 5e-301, 2e-300], rtol=1e-12)

@@ -41,6 +41,7 @@ def gradient(
     scene: Scene,
     prescribed: _Prescribed,
     to: _References | None,
+    of: str | None,
     wanted: list[str],
     by: list[list[tuple[str, float]]],
 ) -> tuple[list[float], list[list[float]]]: ...
@@ -56,6 +57,7 @@ def sweep(
     kind: str,
     numbers: Sequence[_Array],
     to: _References | None,
+    of: str | None,
     wanted: Sequence[str],
     threads: int,
     progress: Callable[[int], object] | None,

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from .contact import Prescribed
+    from .slipping import Side
 
 Parameter: TypeAlias = str | Mapping[str, float]
 """Name of a number of a scene, or several names with the rates at which these numbers change."""
@@ -25,23 +26,27 @@ __all__ = ["gradient", "parameters"]
 # A string is a sequence too: the first overload that fits counts.
 @overload
 def gradient(  # type: ignore[overload-overlap]
-    contact: Contact, of: str, by: Parameter, **prescribed: Unpack[Prescribed]
+    contact: Contact, of: str, by: Parameter, *, body: Side | None = None, **prescribed: Unpack[Prescribed]
 ) -> tuple[float, float]: ...
 @overload
 def gradient(  # type: ignore[overload-overlap]
-    contact: Contact, of: str, by: Sequence[Parameter], **prescribed: Unpack[Prescribed]
+    contact: Contact, of: str, by: Sequence[Parameter], *, body: Side | None = None, **prescribed: Unpack[Prescribed]
 ) -> tuple[float, FloatArray]: ...
 @overload
 def gradient(
     contact: Contact,
     of: Sequence[str],
     by: Parameter | Sequence[Parameter],
+    *,
+    body: Side | None = None,
     **prescribed: Unpack[Prescribed],
 ) -> tuple[FloatArray, FloatArray]: ...
 def gradient(
     contact: Contact,
     of: str | Sequence[str],
     by: Parameter | Sequence[Parameter],
+    *,
+    body: Side | None = None,
     **prescribed: Unpack[Prescribed],
 ) -> tuple[float | FloatArray, float | FloatArray]:
     """Returns numbers of a solution, and their derivatives by numbers of the scene.
@@ -66,6 +71,8 @@ def gradient(
         and prescribed numbers ("load", "references.x"). `parameters` lists them.
         A mapping changes several numbers at once, each at its rate: the radius of a circle is
         `{"upper.along": 1.0, "upper.across": 1.0}`.
+    body : {"lower", "upper"}, optional
+        Body of the shear, as for `Solution.max_shear`.
     **prescribed : float
         Prescribed quantities, as for `Contact.solve`. References may be given with any of them.
 
@@ -129,7 +136,7 @@ def gradient(
     alone = isinstance(by, str | Mapping)
     each = [by] if isinstance(by, str | Mapping) else by
     rates = [[(one, 1.0)] if isinstance(one, str) else list(one.items()) for one in each]
-    values, columns = _native.gradient(contact._scene, *_given(prescribed, quantities), quantities, rates)
+    values, columns = _native.gradient(contact._scene, *_given(prescribed, quantities), body, quantities, rates)
     derivatives = np.array(columns, dtype=np.float64).reshape(len(rates), len(quantities)).T
     if alone:
         derivatives = derivatives[:, 0]

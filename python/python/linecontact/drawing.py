@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .below import bodies as bodies_below
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from ._numbers import FloatArray
     from .contact import Contact
     from .finite_roller import RollerState
-    from .slipping import PartialSlip
+    from .slipping import PartialSlip, Side
     from .solution import Solution
 
 # Margin shown on each side of the contacts, as a share of their width; and depth shown, in
@@ -113,7 +115,8 @@ def plot_roller(state: RollerState, units: Sequence[str]) -> Figure:
 def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = None) -> Figure:
     """Draws bodies, pressure and subsurface shear, one below the other over the same x.
 
-    With partial slip it draws the traction, too, and the shear is that in the lower body.
+    With partial slip it draws the traction, too, and the shear is that in the lower body. If a body
+    has a layer, each body has a picture of its shear.
     """
     if isinstance(units, str) or len(units) not in (2, 3):
         raise TypeError(f'units are {units!r}: give names of the units of lengths and pressures, as ("mm", "MPa")')
@@ -121,8 +124,9 @@ def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = No
     on, contact = solution.hull, solution.contact
     beside = 2 * BESIDE * on.half_width
     x = np.linspace(on.left - beside, on.right + beside, 401)
-    figure = _figure(8.0)
-    bodies, pressure, below = figure.subplots(3, 1, sharex=True)
+    of_each: Sequence[tuple[Side | None, float]] = [("lower", np.inf)] if slip else bodies_below(contact)
+    figure = _figure(5.3 + 2.7 * len(of_each))
+    bodies, pressure, *shears = figure.subplots(2 + len(of_each), 1, sharex=True)
 
     lower, upper = before_loading(contact, x, solution.tilt)
     bodies.plot(x, upper, color="#08519c", label="upper body")
@@ -145,16 +149,18 @@ def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = No
     # The depths start below the surface, where the pressure may be infinite. The places are denser
     # below each contact, and the depths start nearer to the surface where contacts are narrow.
     narrowest = min(interval.half_width for interval in solution.intervals)
-    depth = np.geomspace(0.02 * narrowest, _DEPTH * on.half_width, 48)
     columns = max(_COLUMNS // len(solution.intervals), 3)
     below_each = [np.linspace(*interval, columns) for interval in solution.intervals]
     across = np.unique(np.concatenate([np.linspace(x[0], x[-1], _COLUMNS), *below_each]))
-    grid = across[None, :], depth[:, None]
-    stress = solution.stress(*grid) if slip is None else slip.stress("lower", *grid)
-    drawn = below.contourf(across, depth, stress.max_shear(), levels=12, cmap="cividis")
-    shear = "largest shear" if slip is None else "largest shear in lower body"
-    figure.colorbar(drawn, ax=below, label=f"{shear}{pressures}")
-    below.invert_yaxis()
-    below.set_ylabel(f"depth{lengths}")
-    below.set_xlabel(f"x{lengths}")
+    for below, (body, deepest) in zip(shears, of_each, strict=True):
+        # In a layer on a rigid base down to the base.
+        depth = np.geomspace(min(0.02 * narrowest, 0.1 * deepest), min(_DEPTH * on.half_width, deepest), 48)
+        grid = across[None, :], np.minimum(depth, deepest)[:, None]
+        stress = solution.stress(*grid, body=body) if slip is None else slip.stress("lower", *grid)
+        drawn = below.contourf(across, depth, stress.max_shear(), levels=12, cmap="cividis")
+        shear = f"largest shear in {body} body" if body else "largest shear"
+        figure.colorbar(drawn, ax=below, label=f"{shear}{pressures}")
+        below.invert_yaxis()
+        below.set_ylabel(f"depth{lengths}")
+    shears[-1].set_xlabel(f"x{lengths}")
     return figure

@@ -16,12 +16,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._numbers import FloatArray, Numbers, Range
+from ._numbers import FloatArray, Numbers, Range, one_of
+from .below import bodies, materials
 from .bodies import Body
 from .contact import Contact, Material, contact_modulus
 from .drawing import BESIDE, before_loading
 from .errors import LineContactError, SingularError
-from .slipping import PartialSlip, acting, slipped_again
+from .slipping import PartialSlip, Side, acting, slipped_again
 from .solution import Solution
 
 __all__ = ["explore"]
@@ -54,6 +55,7 @@ def explore(
     *,
     title: str = "Line contact",
     units: Sequence[str] = ("", "", ""),
+    body: Side | None = None,
     friction: float | None = None,
     force: float = 0.0,
     tension: float = 0.0,
@@ -77,6 +79,9 @@ def explore(
     units : (str, str, str)
         Names of the units of lengths, pressures and loads, to be shown with the numbers, such as
         ``("mm", "MPa", "N/mm")``.
+    body : {"lower", "upper"}, optional
+        Body whose shear is shown. Without friction half-planes have the same; if a body has a
+        layer, the default is the first one that has.
     friction, force, tension : float, optional
         Arguments of `Contact.partial_slip`, the same under all loads. With them the page shows the
         traction, too, the stick zones, the largest tension along the surface of the lower body, and
@@ -100,7 +105,7 @@ def explore(
     The shapes of the loaded bodies are right, their heights only up to a rigid displacement: it is
     chosen so that the mean deformation at the two ends of the common x axis is zero. Without
     materials each surface is drawn with half of the deformation. The shear is the largest shear
-    stress in the plane, equal in both bodies unless there is a traction.
+    stress in the plane, equal in both bodies unless there is a traction or a layer.
 
     Examples
     --------
@@ -126,11 +131,12 @@ def explore(
     wanted = np.unique(np.asarray(loads, dtype=np.float64))
     if wanted.size == 0 or not np.all(np.isfinite(wanted)):
         raise ValueError("give at least one load, and finite ones")
+    below = _below(contact, body)
     reach = _reach(contact)
     solved = _solved(contact, wanted.tolist(), None if friction is None else along)
     spans = [_window(_normal(one), reach) for one in solved.values() if not isinstance(one, LineContactError)]
     window = min((left for left, _ in spans), default=0.0), max((right for _, right in spans), default=0.0)
-    frames = {load: _frame(one, window, reach) for load, one in solved.items()}
+    frames = {load: _frame(one, window, reach, below) for load, one in solved.items()}
     errors = [frame for frame in frames.values() if isinstance(frame, LineContactError)]
     if len(errors) == len(frames):
         raise errors[0]
@@ -140,6 +146,7 @@ def explore(
         "units": {"length": length, "pressure": pressure, "load": per_length},
         "bodies": {"lower": _words(contact.lower), "upper": _words(contact.upper)},
         "acting": None if friction is None else dict(zip(("friction", "force", "tension"), along, strict=True)),
+        "below": below[0],
         "shared": contact._settings["materials"] is None,
         "window": window,
         "before": {"x": _packed(x), "lower": _packed(lower), "upper": _packed(upper)},
@@ -187,7 +194,10 @@ def _window(solution: Solution, reach: Range) -> Range:
 
 
 def _frame(
-    solved: Solution | PartialSlip | LineContactError, window: Range, reach: Range
+    solved: Solution | PartialSlip | LineContactError,
+    window: Range,
+    reach: Range,
+    below: tuple[Side | None, float],
 ) -> dict[str, Any] | LineContactError:
     """Returns the data that the page shows for one load."""
     if isinstance(solved, LineContactError):
@@ -197,7 +207,7 @@ def _frame(
         numbers = {**_numbers(solution), "window": _window(solution, reach)}
         if slip is not None:
             numbers |= {"stick_zones": slip.stick_zones, "tension": _tension(slip)}
-        return {**numbers, **_curves(solution, slip, window), **_field(solution, slip, window)}
+        return {**numbers, **_curves(solution, slip, window), **_field(solution, slip, window, below)}
     except LineContactError as error:
         return error
 
@@ -332,7 +342,23 @@ def _share_of_lower(contact: Contact) -> float:
     return contact_modulus(lower, upper, plane) / alone
 
 
-def _field(solution: Solution, slip: PartialSlip | None, window: Range) -> dict[str, Any]:
+def _below(contact: Contact, body: Side | None) -> tuple[Side | None, float]:
+    """Returns the body whose shear is shown, and its largest depth."""
+    if body is not None:
+        one_of(body, "body", ("lower", "upper"))
+    found = dict(bodies(contact))
+    if None in found:
+        return None, found[None]
+    coated = [one.body for one in materials(contact) if one.words.endswith("layer")]
+    chosen = body or next(iter(coated), None) or next(iter(found))
+    if chosen not in found:
+        raise ValueError(f"the {body} body is rigid: it has no shear")
+    return chosen, found[chosen]
+
+
+def _field(
+    solution: Solution, slip: PartialSlip | None, window: Range, below: tuple[Side | None, float]
+) -> dict[str, Any]:
     """Returns the largest shear and its place, and the shear on a grid.
 
     The grid is finest at the limits of the contacts.
@@ -343,13 +369,16 @@ def _field(solution: Solution, slip: PartialSlip | None, window: Range) -> dict[
     x = _graded(window, limits, fine, columns)
     depth = _graded((0.0, 0.5 * (window[1] - window[0])), np.zeros_like(fine), fine, _ROWS)
     shear = np.zeros((depth.size, x.size))
-    # Zero at the surface: without friction the stress along x equals the stress across it.
-    shear[1:] = solution.stress(x, depth[1:, None]).max_shear()
-    if slip is not None:
-        rows = np.append(_SURFACE * solution.half_width, depth[1:])
+    body, deepest = below
+    rows = np.append(_SURFACE * solution.half_width, depth[1:])
+    # Zero at the surface of half-planes: without friction the stress along x equals that across it.
+    drawn = (rows <= deepest) & ((body is not None) | (depth > 0.0))
+    if slip is None:
+        shear[drawn] = solution.stress(x, rows[drawn, None], body=body).max_shear()
+    else:
         shear = slip.stress("lower", x, rows[:, None]).max_shear()
     try:
-        found = solution.max_shear() if slip is None else slip.max_shear("lower")
+        found = solution.max_shear(body=body) if slip is None else slip.max_shear("lower")
         largest: dict[str, Any] = found._asdict()
         top = largest["value"]
     except SingularError as infinite:

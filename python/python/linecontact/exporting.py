@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 
 from ._numbers import FloatArray
-from .sheet import NUMBERS, Row, described, poisson_ratio
+from .below import bodies, materials
+from .sheet import NUMBERS, Row, described
+from .slipping import Side
 from .solution import Solution
 
 # Number of places of the pressure, and of columns and rows of the stress field.
@@ -22,23 +24,29 @@ _REACH, _FIRST = 2.0, 1e-3
 
 
 def write_csv(path: Path, rows: Sequence[Row], units: Mapping[str, str]) -> None:
-    """Writes a line for each control: numbers, with their units in the heads, and the error."""
+    """Writes a line for each control: numbers, with their units in the heads, and the error.
+
+    If a body has a layer, `max_shear_in` and its like name the materials of the largest stresses.
+    """
     heads = [f"{name} [{unit}]" if (unit := units.get(kind, "")) else name for name, (kind, _) in NUMBERS.items()]
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
-        table.writerow(["prescribed", *heads, "error"])
-        for row in rows:
+        places = _places(rows)
+        table.writerow(["prescribed", *heads, *places, "error"])
+        for number, row in enumerate(rows):
             error = type(row.error).__name__ if row.error else ""
-            table.writerow([described(row.control), *row.numbers.values(), error])
+            words = [places[name][number] for name in places]
+            table.writerow([described(row.control), *row.numbers.values(), *words, error])
 
 
 def write_npz(path: Path, rows: Sequence[Row]) -> None:
     """Writes the numbers of all rows, and their fields: arrays whose first index is the row.
 
-    `pressure` is at `x`; stresses are at `depth`, the second index, and `field_x`, the third.
+    `pressure` is at `x`; stresses are at `depth`, the second index, and `field_x`, the third. If a
+    body has a layer, each body has stresses of its own: `lower_sigma_x`, at `lower_depth`.
     """
-    arrays: dict[str, Any] = {name: [row.numbers[name] for row in rows] for name in NUMBERS}
-    fields = [_pressures(row.solution) | _field(row.solution) if row.solution else {} for row in rows]
+    arrays: dict[str, Any] = {name: [row.numbers[name] for row in rows] for name in NUMBERS} | _places(rows)
+    fields = [_fields(row.solution) if row.solution else {} for row in rows]
     for name, like in next(filter(None, fields), {}).items():
         arrays[name] = [field.get(name, np.full_like(like, np.nan)) for field in fields]
     with path.open("wb") as file:
@@ -48,16 +56,21 @@ def write_npz(path: Path, rows: Sequence[Row]) -> None:
 def write_vtk(path: Path, rows: Sequence[Row]) -> None:
     """Writes the stress in the lower body as a structured grid, in the text of legacy VTK.
 
-    Several rows go to numbered files, which ParaView opens as a series. Here y is upwards, so that
-    `tau_xy` has the opposite sign of that of `Solution.stress`.
+    Several rows go to numbered files, which ParaView opens as a series. If a body has a layer, each
+    body goes to files of its own, with its name. Here y is upwards, so that `tau_xy` has the
+    opposite sign of that of `Solution.stress`; the upper body is drawn below its surface, too.
     """
-    for number, row in enumerate(rows, 1):
-        if row.solution is None:
-            continue
-        field = _field(row.solution)
+    for number, row, body, deepest in [
+        (number, row, *of)
+        for number, row in enumerate(rows, 1)
+        for of in (bodies(row.solution.contact) if row.solution else ())
+    ]:
+        assert row.solution is not None
+        field = _field(row.solution, body, deepest)
         x, y = np.broadcast_arrays(field.pop("field_x"), -field.pop("depth")[:, None])
         field["tau_xy"] *= -1.0
-        of = path if len(rows) == 1 else path.with_name(f"{path.stem}_{number:04d}{path.suffix}")
+        name = path.stem + (f"_{body}" if body else "") + (f"_{number:04d}" if len(rows) > 1 else "")
+        of = path.with_name(name + path.suffix)
         with of.open("w", encoding="ascii") as file:
             file.write(f"# vtk DataFile Version 3.0\nline contact, load {row.solution.load:.17g}\nASCII\n")
             file.write(f"DATASET STRUCTURED_GRID\nDIMENSIONS {_COLUMNS} {_DEPTHS} 1\nPOINTS {x.size} double\n")
@@ -74,12 +87,33 @@ def _pressures(solution: Solution) -> dict[str, FloatArray]:
     return {"x": x, "pressure": solution.pressure(x)}
 
 
-def _field(solution: Solution) -> dict[str, FloatArray]:
+def _places(rows: Sequence[Row]) -> dict[str, list[str]]:
+    """Returns the materials of the largest stresses by row, if a body has a layer."""
+    names = dict.fromkeys(name for row in rows for name in row.places)
+    return {f"{name}_in": [row.places.get(name, "") for row in rows] for name in names}
+
+
+def _fields(solution: Solution) -> dict[str, FloatArray]:
+    """Returns the pressures and all stresses, those of one body with its name."""
+    found = _pressures(solution)
+    for body, deepest in bodies(solution.contact):
+        field = _field(solution, body, deepest)
+        found |= {f"{body}_{name}" if body else name: values for name, values in field.items()}
+    return found
+
+
+def _field(solution: Solution, body: Side | None, deepest: float) -> dict[str, FloatArray]:
     """Returns stresses on a grid below the contacts, which is denser next to the surface."""
     x = solution.centre + _REACH * solution.half_width * np.linspace(-1.0, 1.0, _COLUMNS)
-    depth = solution.half_width * (_FIRST + _REACH * np.linspace(0.0, 1.0, _DEPTHS) ** 2)
-    stress = solution.stress(x, depth[:, None])
+    reach = min(_REACH, deepest / solution.half_width - _FIRST)
+    depth = solution.half_width * (_FIRST + reach * np.linspace(0.0, 1.0, _DEPTHS) ** 2)
+    depth = np.minimum(depth, deepest)
+    stress = solution.stress(x, depth[:, None], body=body)
     field = {"field_x": x, "depth": depth, **stress._asdict(), "max_shear": stress.max_shear()}
-    if (ratio := poisson_ratio(solution.contact)) is not None:
-        field["von_mises"] = stress.von_mises(ratio)
+    for one in materials(solution.contact):
+        if one.body == body and one.ratio is not None:
+            # A layer comes before its base.
+            is_here = depth[:, None] >= (one.depths or (0.0,))[0]
+            before = field.get("von_mises", np.zeros(1))
+            field["von_mises"] = np.where(is_here, stress.von_mises(one.ratio), before)
     return field

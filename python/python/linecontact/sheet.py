@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
-from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from .contact import Contact, Layer
+from .below import Below, materials
+from .contact import Layer
 from .errors import HalfPlanesOnlyError, LineContactError, SingularError
 from .solution import Solution, StressPeak
 
@@ -60,22 +60,27 @@ _EXACT = 1e-12
 
 
 class Row(NamedTuple):
-    """A control with its solution and numbers, and what is not known of layers, or with its error."""
+    """A control with its solution and numbers, or with its error.
+
+    `places` are the materials of the largest stresses, if a body has a layer; `missing` is what is not known of layers.
+    """
 
     control: Mapping[str, Any]
     solution: Solution | None
     numbers: dict[str, float]
+    places: Mapping[str, str]
     missing: Sequence[str]
     error: LineContactError | None
 
 
 def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None) -> Row:
     """Solves a contact, and returns its numbers: NaN if they are not known, infinite at corners."""
-    numbers, missing = dict.fromkeys(NUMBERS, math.nan), dict[str, None]()
+    numbers, missing, places = dict.fromkeys(NUMBERS, math.nan), dict[str, None](), dict[str, str]()
+    below = materials(scene.contact)
     try:
         solution = scene.contact.solve(**control)
     except LineContactError as error:
-        return Row(control, None, numbers, (), error)
+        return Row(control, None, numbers, places, (), error)
 
     def note(of: Callable[[], Iterable[float]], *names: str) -> None:
         try:
@@ -89,7 +94,7 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
         except LineContactError:
             pass
 
-    ratio, to = poisson_ratio(scene.contact), control.get("references", scene.references)
+    to = control.get("references", scene.references)
     numbers.update(load=solution.load, left=-solution.b, right=solution.a, half_width=solution.half_width)
     numbers.update(mean_pressure=solution.mean_pressure)
     if solution.limits_error is not None:
@@ -100,10 +105,23 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
     note(solution.peak, "peak_x", "peak_pressure")
     note(lambda: [solution.pressure_estimate(numbers["peak_x"])[1]], "peak_error")
     note(lambda: solution.uncertainty()[2:], "half_width_deviation", "peak_deviation")
-    note(solution.max_shear, "max_shear_x", "max_shear_depth", "max_shear")
-    note(lambda: largest_tresca(solution, ratio), "tresca_x", "tresca_depth", "tresca")
-    if ratio is not None:
-        note(partial(solution.max_von_mises, ratio), "von_mises_x", "von_mises_depth", "von_mises")
+
+    def largest(name: str, of: Callable[[Below], StressPeak]) -> None:
+        def found() -> StressPeak:
+            peaks = list[tuple[StressPeak, str]]()
+            for one in below:
+                # Where the stress is infinite, it is so in this material.
+                places[name] = one.words
+                peaks.append((of(one), one.words))
+            peak, places[name] = max(peaks, key=lambda pair: pair[0].value)
+            return peak
+
+        note(found, f"{name}_x", f"{name}_depth", name)
+
+    largest("max_shear", lambda one: solution.max_shear(body=one.body, depths=one.depths))
+    largest("tresca", lambda one: largest_tresca(solution, one))
+    if all(one.ratio is not None for one in below):
+        largest("von_mises", lambda one: solution.max_von_mises(one.ratio or 0.0, body=one.body, depths=one.depths))
     if to is not None:
         note(lambda: [solution.approach(to).bodies], "approach")
         note(lambda: [solution.stiffness(to)], "stiffness")
@@ -111,33 +129,26 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
         numbers.update({f"safety_{of}": yield_stress / numbers[of] for of in ("von_mises", "tresca")})
     for name in ("centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
         numbers[name] = 0.0 if abs(numbers[name]) < _ROUNDING * solution.half_width else numbers[name]
-    return Row(control, solution, numbers, tuple(missing), None)
+    named = {name: words for name, words in places.items() if words}
+    return Row(control, solution, numbers, named, tuple(missing), None)
 
 
-def poisson_ratio(contact: Contact) -> float | None:
-    """Returns the least ratio of the elastic bodies, the worst for von Mises and Tresca.
-
-    It is 0 in plane stress, where no stress acts along z, and None without materials.
-    """
-    elastic = [ratio for modulus, ratio in contact._surfaces() if math.isfinite(modulus)]
-    return 0.0 if elastic and contact._settings["plane"] == "stress" else min(elastic, default=None)
-
-
-def largest_tresca(solution: Solution, ratio: float | None) -> StressPeak:
-    """Returns the largest difference of two principal stresses, and its place.
+def largest_tresca(solution: Solution, of: Below) -> StressPeak:
+    """Returns the largest difference of two principal stresses in a material, and its place.
 
     A Poisson's ratio below 1/4 can make it larger than twice the largest shear in the plane.
     """
-    shear = solution.max_shear()
+    shear = solution.max_shear(body=of.body, depths=of.depths)
     best = [StressPeak(shear.x, shear.depth, 2.0 * shear.value)]
-    for on in solution.intervals if ratio is not None else ():
+    top, bottom = of.depths or (0.0, math.inf)
+    for on in solution.intervals if of.ratio is not None else ():
         x, depth, reach = on.centre, on.half_width, on.half_width
         # Windows of 17 by 17 places, each half as wide as the one before, until the value is exact.
         for _ in range(16):
             places = x + reach * np.linspace(-1.0, 1.0, 17)
-            depths = np.maximum(depth + reach * np.linspace(-1.0, 1.0, 17), 0.0)
-            stress = solution.stress(places, depths[:, None])
-            spread = np.ptp([*stress.principal(), stress.sigma_z(ratio or 0.0)], axis=0)
+            depths = np.clip(depth + reach * np.linspace(-1.0, 1.0, 17), top, bottom)
+            stress = solution.stress(places, depths[:, None], body=of.body)
+            spread = np.ptp([*stress.principal(), stress.sigma_z(of.ratio or 0.0)], axis=0)
             row, column = np.unravel_index(np.argmax(spread), spread.shape)
             x, depth, reach = float(places[column]), float(depths[row]), 0.5 * reach
         best.append(StressPeak(x, depth, float(spread[row, column])))
@@ -183,6 +194,7 @@ def sheet(scene: Scene, row: Row, yield_stress: float | None) -> str:
             note = f"against yield at {yield_stress:g} {pressure}" if name.startswith("safety") else ""
             note += "" if math.isnan(x) else f"at x = {x:.4g} {units['length']}".rstrip()
             note += "" if math.isnan(depth) else f", depth {depth:.4g} {units['length']}".rstrip()
+            note += f", {row.places[name]}" if name in row.places else ""
             text = f"{numbers[name]:.6g}" if kind else f"{numbers[name]:.3g}"
             whole, point, digits = text.partition(".")
             lines.append(_line(label, f"{whole:>8}{point + digits:<11}{units[kind]:<8}{note}"))
@@ -221,7 +233,7 @@ def _notes(row: Row, units: dict[str, str]) -> list[str]:
         (True, "checked", checked),
         (len(solution.intervals) > 1, "note", several),
         (bool(held), "note", f"held at x = {', '.join(held)}"),
-        (poisson_ratio(solution.contact) is None, "note", "without materials Tresca is for Poisson's ratios from 1/4"),
+        (materials(solution.contact)[0].ratio is None, "note", "without materials Tresca is for Poisson's ratios from 1/4"),
         (len(row.missing) > 0, "not known of layers", ", ".join(row.missing)),
         (not solution.contact.has_modulus, "note", "no modulus is given: pressures are those of kappa = 1"),
         *((found is not None, "note", words) for words in conform),

@@ -16,6 +16,8 @@ from .contact import Contact, References, _control
 if TYPE_CHECKING:
     from pandas import DataFrame
 
+    from .slipping import Side
+
 __all__ = ["Columns", "sweep"]
 
 # Largest number of threads, more than machines have cores: starting more would take longer than any
@@ -91,6 +93,7 @@ def sweep(
     *,
     quantities: Sequence[str] | str = ("load", "a", "b", "peak_pressure"),
     references: References | None = None,
+    body: Side | None = None,
     progress: bool | Callable[[int, int], object] = False,
     threads: int | None = None,
     **prescribed: npt.ArrayLike,
@@ -115,6 +118,8 @@ def sweep(
         the curves) and "is_checked" are not floats, and 0 where the row has failed.
     references : References, optional
         References of the approach and the stiffness, as quantities or prescribed.
+    body : {"lower", "upper"}, optional
+        Body of the shear, as for `Solution.max_shear`.
     progress : bool or callable
         True shows a bar if tqdm is installed. A function is called now and then, with the number of
         rows done and the number of all rows.
@@ -186,6 +191,7 @@ def sweep(
             kind,
             [np.broadcast_to(values, (rows,)).astype(np.float64) for values in given],
             references,
+            body,
             quantities,
             min(_cores() if threads is None else threads, max(rows, 1), _MOST_THREADS),
             told,
