@@ -156,11 +156,6 @@ impl<T: Real> Kernel<'_, T> {
         }
         sums.map(|sum| self.share * sum)
     }
-
-    /// Returns numbers of terms on an interval.
-    pub fn terms(&self, on: Interval<T>) -> [usize; 3] {
-        terms(self.distance(), on)
-    }
 }
 
 /// Returns numbers of terms on an interval with the nearest singularity of the kernel at a distance

@@ -16,9 +16,9 @@
 //! (x - c)/L` and `|u| < 1` in `z = (u + 1/u)/2`, it has `uᵏ/(L sqrt(z² - 1))`, and the potential
 //! `-uᵏ/k`, or `ln(L/(2|u|))` for k = 0.
 
-use super::Kernel;
 use super::bend::Bend;
 use super::spread::{Loads, Nodes, Spread};
+use super::{Kernel, terms};
 use crate::numerics::LinearSystem;
 use crate::{Interval, Real};
 
@@ -56,7 +56,7 @@ impl<T: Real> Correction<T> {
         let (mut places, mut largest, mut off) = (Vec::new(), T::zero(), T::zero());
         for spread in &spreads {
             let on = spread.on;
-            let [terms, ..] = kernel.terms(on);
+            let [terms, ..] = terms(kernel.distance(), on);
             let nodes = Nodes::new(on, terms);
             let new: Vec<T> = nodes.x.iter().map(|&x| loads.slope(kernel, x)).collect();
             let old = |x: T| bend.map_or(T::zero(), |bend| bend.slope(x));
@@ -100,7 +100,7 @@ pub(crate) fn punch<T: Real>(
     is_rough: bool,
 ) -> Option<Vec<Spread<T>>> {
     let place = |&on: &Interval<T>| {
-        let [few, terms, _] = kernel.terms(on);
+        let [few, terms, _] = terms(kernel.distance(), on);
         let terms = if is_rough { few / 2 } else { terms };
         Place { on, nodes: Nodes::new(on, terms), rho: vec![T::zero(); terms] }
     };

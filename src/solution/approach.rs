@@ -127,9 +127,11 @@ impl<T: Real> Solution<'_, T> {
     /// the load per unit length by their [approach](Self::approach), at a fixed tilt. For one
     /// contact it takes no longer than a pressure.
     ///
-    /// The approach of the bodies grows with the load, for all depths and for discs larger than the
-    /// contact. (The surface of one body need not approach a point close below it,
-    /// `Approach::upper`: outside the contact it may be lifted while the gap closes.)
+    /// The approach of half-planes grows with the load, for all depths and for discs larger than
+    /// the contact. (The surface of one body need not approach a point close below it,
+    /// `Approach::upper`: outside the contact it may be lifted while the gap closes.) A stiff
+    /// coating that bends may grow thicker, and both bodies recede from a point in it: a negative
+    /// stiffness.
     ///
     /// ```
     /// use linecontact::profile::Parabola;
@@ -357,7 +359,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         let depth = if is_depth { length } else { layer.thickness };
         // As the interface sees it, at half the distance of its image.
         let lengths = [layer.thickness, layer.longest().max(depth)];
-        let far = loads.iter().fold(depth, |far, [s, _]| far.max((self.x - *s).abs()));
+        let far = loads.iter().fold(layer.thickness, |far, [s, _]| far.max((self.x - *s).abs()));
         wavenumbers(lengths, row.map(|row| row.period), [T::zero(), far], |omega, weight| {
             let (weight, excess) = (weight / omega, layer.excess(omega * layer.thickness));
             let wave = sum(&|distance| (omega * distance).cos());
@@ -418,16 +420,18 @@ impl<'s, T: Real> Approaching<'s, T> {
     /// Returns dδ/dF: with ∂P/∂F any contact may be the first.
     pub fn rate(&self) -> Result<T, ContactError<T>> {
         let (rates, contacts) = (LoadRates::of(self.solved)?, self.solved.contacts());
-        let punch = self.solved.gap.bend().zip(rates.bent());
-        if let ([on], None) = (contacts, punch) {
+        let bend = self.solved.gap.bend();
+        if let ([on], None) = (contacts, bend) {
             let punches = self.bodies.map(|of| self.of_punch(*on, of));
             return Ok(self.both(punches, T::zero()));
         }
         let integrals = Integrals::of_unit_load(&rates, contacts);
         let logarithm = self.mean_logarithm(&integrals, contacts[0])?;
         let [smooth, _] = self.smooth(&integrals)?;
-        let bent = punch.map_or(T::zero(), |(bend, punch)| bend.mean_height(punch));
-        Ok(self.both(smooth, logarithm) - bent / self.solved.kappa)
+        let rate = self.both(smooth, logarithm);
+        let Some(bend) = bend else { return Ok(rate) };
+        let loads = integrals.loads(bend.kernel_of_bodies())?;
+        Ok(rate - bend.mean_height(&loads, contacts[0]) / self.solved.kappa)
     }
 
     /// Returns `∫ p (k + 2 ln|ξ| - 2 G) ds` for the pressure p of a flat punch on one contact,

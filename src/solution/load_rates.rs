@@ -70,14 +70,6 @@ impl<T: Real> Density<T> for &LoadRates<T> {
 }
 
 impl<T: Real> LoadRates<T> {
-    /// Returns the rate of the pressure of bodies that are not half-planes.
-    pub(super) fn bent(&self) -> Option<&[Spread<T>]> {
-        match &self.punch {
-            Touching::Bent(spreads, _) => Some(spreads),
-            _ => None,
-        }
-    }
-
     /// Creates the derivatives of a single contact.
     fn of_one(limits: Ends<T>, on: Interval<T>) -> Self {
         let Ends { left, right } = limits;

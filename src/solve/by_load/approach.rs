@@ -5,7 +5,8 @@
 //! rate never grows. Towards a depth d the rate is, up to a factor, the sum over the bodies of
 //! `2 G - d ∂G/∂d/(1 - ν)`, with Green's function G of the region outside the contacts. As they
 //! grow, G decreases by a positive harmonic function h, for which `d ∂h/∂d ≤ h`. For a disc or a
-//! length, the logarithm of their capacity is subtracted, which grows.
+//! length, the logarithm of their capacity is subtracted, which grows. (Of layers this is not
+//! proved: the load that is found need not be the only one with its approach.)
 
 use super::{ByLoad, Point, Quantity, Value};
 use crate::material::Elasticity;

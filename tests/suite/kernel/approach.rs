@@ -2,8 +2,10 @@
 
 use super::oracle::approach;
 use super::periodic::{PERIOD, waves};
+use super::scenes::random_layer;
 use super::{RIGID, coated, half_plane, layer, parabola};
 use crate::common::{Profile, graph, worst};
+use crate::random_scenes::Dice;
 use linecontact::{Base, Contact, Control, Foundation, Material, Reference, References};
 
 const STEEL: Material<f64> = Material::Elastic { youngs_modulus: 3.0, poisson_ratio: 0.3 };
@@ -181,4 +183,67 @@ fn stiffness_is_the_derivative_and_the_approach_may_be_given() {
             }
         }
     }
+}
+
+/// A depth far below is a length of the base: `2 ln d - 1/(1 - ν)` is `2 ln ℓ`.
+#[test]
+fn far_below_a_depth_is_a_length() {
+    let mut errors = Vec::new();
+    for seed in 0..30 {
+        let random = &mut Dice::new(500 + seed);
+        let ([modulus, soft], ratio) =
+            ([0, 1].map(|_| random.power_of_ten(-1.0, 1.0)), 0.1 + 0.01 * f64::from(seed as u8));
+        let base = half_plane(modulus * soft, ratio);
+        let one = layer(modulus, random.within(0.0, 0.5), random.power_of_ten(-1.0, 1.0), base);
+        let body = parabola(6.0);
+        let solution = coated(&body, one, STEEL).solve(Control::HalfWidth(0.5)).unwrap();
+        let at = |reference| {
+            let to = References { lower: reference, ..to(0.2, Reference::Depth(1.0)) };
+            let approach = solution.approach(&to).unwrap();
+            [approach.lower, approach.bodies, solution.stiffness(&to).unwrap().recip()]
+        };
+        let far = at(Reference::Depth(1e16));
+        let length = at(Reference::Length(1e16 * (-0.5 / (1.0 - ratio)).exp()));
+        errors.extend(far.iter().zip(length).map(|(one, other)| one / other - 1.0));
+    }
+    let worst = worst(errors.into_iter().map(f64::abs));
+    println!("{worst:.1e}");
+    assert!(worst < 1e-13);
+}
+
+/// Random layers with references anywhere in them and below.
+#[test]
+fn random_layers_agree_with_a_direct_sum() {
+    let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(4);
+    let mut errors = Vec::new();
+    for seed in 0..count {
+        let random = &mut Dice::new(31_000 + seed);
+        let ((one, compliance), (two, _)) = (random_layer(random), random_layer(random));
+        let bodies: [Foundation<f64>; 2] = match seed % 3 {
+            0 => [one.into(), RIGID.into()],
+            1 => [one.into(), STEEL.into()],
+            _ => [two.into(), one.into()],
+        };
+        let (wave, height) = (random.within(2.0, 6.0), random.within(0.0, 0.3));
+        let body = graph(-12.0, 12.0, move |x| {
+            let (sin, cos) = (wave * x + 1.0).sin_cos();
+            [0.5 * x * x + height / (wave * wave) * cos, x - height / wave * sin]
+        });
+        let load = random.power_of_ten(-2.0, -0.3) / compliance;
+        let solution = coated(&body, bodies[0], bodies[1]).solve(Control::Load(load)).unwrap();
+        let depths = [0.01, random.uniform(), 1.0, 1.001, random.power_of_ten(0.0, 2.0)];
+        let depths = depths.map(|depth| Reference::Depth(depth * one.thickness));
+        for reference in depths.into_iter().chain([Reference::Length(20.0)]) {
+            for x in [solution.hull().centre(), random.within(-4.0, 4.0)] {
+                let found = solution.approach(&to(x, reference)).unwrap();
+                let exact = bodies.map(|of| approach(&solution, of, x, reference, None));
+                let size = exact[0].abs().max(exact[1].abs()).max(1e-3 * load * compliance);
+                errors.push((found.lower - exact[0]) / size);
+                errors.push((found.upper - exact[1]) / size);
+            }
+        }
+    }
+    let worst = worst(errors.into_iter().map(f64::abs));
+    println!("{worst:.1e}");
+    assert!(worst < 1e-8);
 }

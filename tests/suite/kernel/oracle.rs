@@ -303,7 +303,8 @@ pub fn approach(
     let Some(layer) = layer else { return half_plane };
     let plain = |depth: f64| compliance * (1.0 + depth / (2.0 * (1.0 - nu))) * (-depth).exp();
     let loads = loads(solution, 200);
-    let far = loads.iter().fold(depth, |far, (_, s, _)| far.max((x - s).abs()));
+    let own = if let Reference::Length(length) = reference { length } else { depth };
+    let far = loads.iter().fold(own, |far, (_, s, _)| far.max((x - s).abs()));
     let widest = 0.1 / far.max(thickness);
     let rule = [(0.01 / length(&layer)).min(widest), widest, 32.0 / thickness];
     let term = |omega: f64, [re, im]: [f64; 2], load: f64| {

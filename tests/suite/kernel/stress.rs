@@ -384,7 +384,8 @@ fn stress_below_a_period() {
     let pair = [layer(1.0, 0.3, 0.1, half_plane(0.3, 0.4)), layer(3.0, 0.4, 0.3, Base::Bonded)];
     let slip = layer(1.0, 0.2, 0.15, Base::Frictionless);
     let plain = Material::elastic(2.0, 0.25);
-    let cases: [([Foundation<f64>; 2], [Layer<f64>; 2]); 3] = [
+    type Case = ([Foundation<f64>; 2], [Layer<f64>; 2]);
+    let cases: [Case; 3] = [
         ([plain.into(), RIGID.into()], [none; 2]),
         ([pair[0].into(), pair[1].into()], pair),
         ([slip.into(), plain.into()], [slip, none]),
