@@ -39,6 +39,7 @@ mod residual;
 pub mod stress;
 
 mod certificate;
+mod check;
 mod contact_state;
 mod display;
 mod pressure_integral;
@@ -50,6 +51,7 @@ pub use approach::Approach;
 pub(crate) use approach::Approaching;
 pub(crate) use certificate::certify;
 pub use certificate::{Certificate, Extremum};
+pub(crate) use check::{Closeness, Inside, Tensions};
 pub(crate) use contact_state::{BLIND, ContactState};
 pub use load_rates::LoadRates;
 pub use partial_slip::{PartialSlip, Shear, SlipStress, Traction};

@@ -9,19 +9,16 @@
 
 mod balance;
 mod cells;
-mod inside;
 mod outside;
-mod series_bounds;
 
+use super::check::{Closeness, Inside, Tensions, extremes, nearer};
 use super::{ContactState, Solved};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{Several, System, rises_over};
 use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
 use balance::balanced;
 use cells::Cells;
-use inside::Inside;
 use outside::{Loaded, OutsideOf};
-use series_bounds::extremes;
 
 /// Largest number of evaluations, and of samples, before the certificate is given up.
 const MAX_EVALUATIONS: usize = 1 << 20;
@@ -34,6 +31,10 @@ const WIDTHS: f64 = 4.0;
 
 /// Number of points at which the pressure of one of several contacts is summed up.
 const POINTS: usize = 512;
+
+/// Largest number of breakpoints at which the pressure is taken, besides those where the slope
+/// jumps down.
+const MAX_JOINTS: usize = 512;
 
 /// Proof that a solution is a contact.
 ///
@@ -231,6 +232,7 @@ fn presses_at<T: Real>(
 }
 
 /// Finds the least pressure of all contacts, each relative to a smooth body under the same load.
+/// Fails at the deepest tension in the first contact with any.
 fn least_pressure<T: Real>(
     gap: &Gap<'_, T>,
     kappa: T,
@@ -238,35 +240,53 @@ fn least_pressure<T: Real>(
     several: &Several<T>,
     cost: Cost,
 ) -> Result<Extremum<T>, ContactError<T>> {
-    let ContactState { interval: hull, load, .. } = *found;
+    let ContactState { interval, load, .. } = *found;
     let pressures = |x: &[T], pressures: &mut [T]| {
         several.pressures(x, pressures);
         pressures.iter_mut().for_each(|pressure| *pressure *= kappa);
+        Ok(())
     };
     let last = several.contacts().len() - 1;
     let mut least = None;
     for (i, &on) in several.contacts().iter().enumerate() {
-        let borne = if last == 0 { load } else { borne(&pressures, on) };
+        let borne = if last == 0 { load } else { borne(&pressures, on)? };
         let mean = T::of(0.5) * borne.abs() / on.half_width();
         let free = several.held()[i].map(|held| !held);
-        let allowed = found.zero_tolerance() * mean;
-        let inside = Inside { pressures: &pressures, gap, on, free, load, hull, allowed };
-        let Extremum { x, value } = inside.least(cost)?;
+        let (allowed, closeness) = (found.zero_tolerance() * mean, Closeness::OF_A_PROOF);
+        let inside = Inside { pressures: &pressures, on, free, allowed, closeness };
+        let mut found = Tensions::below(None);
+        let joints: Vec<T> = gap.telling_breakpoints(on, -T::one(), MAX_JOINTS).collect();
+        inside.look_at(&joints, &mut found)?;
+        let mut left = on.left;
+        for right in gap.breakpoints(on).chain([on.right]) {
+            inside.bound([left, right], &mut found)?;
+            left = right;
+        }
+        if let Some(Extremum { x, value: pressure }) = found.worst() {
+            let is_known = pressure.partial_cmp(&pressure).is_some();
+            let tension = SolveError::Tension { x, pressure, interval, load };
+            return Err(if is_known { tension.into() } else { undecided(x, cost) });
+        }
+        let ratio = found.given_up.map_or(found.ratio.ok_or(on.centre()), Err);
+        let Extremum { x, value } = ratio.map_err(|x| undecided(x, cost))?;
         least = nearer(least, Some(Extremum { x, value: value / mean }));
     }
-    least.ok_or_else(|| undecided(hull.left, cost))
+    least.ok_or_else(|| undecided(interval.left, cost))
 }
 
 /// Returns the load of one of several contacts, to about a thousandth: a pressure may be infinite
 /// at kinks.
-fn borne<T: Real>(pressures: &dyn Fn(&[T], &mut [T]), on: Interval<T>) -> T {
+fn borne<T: Real>(
+    pressures: &dyn Fn(&[T], &mut [T]) -> Result<(), ContactError<T>>,
+    on: Interval<T>,
+) -> Result<T, ContactError<T>> {
     let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS);
     let x: Vec<T> = (0..POINTS).map(|i| on.at_angle(angle(i))).collect();
     let mut values = vec![T::zero(); POINTS];
-    pressures(&x, &mut values);
+    pressures(&x, &mut values)?;
     let finite = x.iter().zip(&values).filter(|(_, pressure)| pressure.is_finite());
     let sum = finite.fold(T::zero(), |sum, (&x, &p)| sum + p * on.chebyshev_weight(x));
-    T::pi() * sum / T::count(POINTS)
+    Ok(T::pi() * sum / T::count(POINTS))
 }
 
 /// Returns the ends up to which bodies are followed: a million half-widths where they have no end.
@@ -274,13 +294,6 @@ fn followed<T: Real>(ends: Ends<T>, on: Interval<T>) -> Ends<T> {
     let reach = T::of(1e6) * on.half_width();
     let finite = |end: T, instead: T| if end.is_finite() { end } else { instead };
     Ends { left: finite(ends.left, on.left - reach), right: finite(ends.right, on.right + reach) }
-}
-
-/// Returns the lower of two extrema.
-fn nearer<T: Real>(one: Option<Extremum<T>>, other: Option<Extremum<T>>) -> Option<Extremum<T>> {
-    one.into_iter()
-        .chain(other)
-        .reduce(|one, other| if one.value < other.value { one } else { other })
 }
 
 #[cfg(test)]

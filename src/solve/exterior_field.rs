@@ -10,11 +10,10 @@
 //! Values at 32 angles suffice for rounding if the pressure is smooth, and for a thousandth of it
 //! otherwise; more are taken if the result depends on them.
 
-use crate::numerics::chebyshev::power_series;
+use crate::numerics::chebyshev::{Table, power_series};
 use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real};
 use std::f64::consts::PI;
-use std::sync::LazyLock;
 
 /// Number of angles at which the pressure is evaluated, and of coefficients.
 pub(crate) const POINTS: usize = 32;
@@ -22,10 +21,6 @@ pub(crate) const POINTS: usize = 32;
 /// Number of stretches beyond all contacts for which there is room from the first: 32 doublings on
 /// either side.
 const MOST_STRETCHES: usize = 64;
-
-/// Table of cos(m π/(2 POINTS)).
-static COSINES: LazyLock<[f64; 4 * POINTS]> =
-    LazyLock::new(|| std::array::from_fn(|m| (m as f64 * PI / (2 * POINTS) as f64).cos()));
 
 /// Pressure of one contact as a cosine series.
 #[derive(Clone)]
@@ -42,14 +37,14 @@ pub(crate) struct ExteriorField<T> {
 }
 
 impl<T: Real> ExteriorField<T> {
-    /// Returns the places at which the pressure is needed, from right to left.
+    /// Returns the places at which the pressure is needed: Chebyshev nodes of the contact.
     pub fn places(on: Interval<T>) -> [T; POINTS] {
         std::array::from_fn(|i| Self::place(on, i, POINTS))
     }
 
     /// Returns place i of `count` such places.
     pub fn place(on: Interval<T>, i: usize, count: usize) -> T {
-        on.at_angle(T::pi() * (T::count(i) + T::of(0.5)) / T::count(count))
+        on.at_angle(T::pi() * (T::count(count - i) - T::of(0.5)) / T::count(count))
     }
 
     /// Creates the series from the pressures at [`places`](Self::places).
@@ -61,7 +56,7 @@ impl<T: Real> ExteriorField<T> {
     ) -> Self {
         let bounded: [T; POINTS] =
             std::array::from_fn(|i| pressures[i] * on.chebyshev_weight(x[i]));
-        let q = std::array::from_fn(|n| coefficient(n, &bounded, &COSINES));
+        let q = Table::of(POINTS).coefficients(&bounded);
         let doubt = tail(&q, free);
         Self { on, pressures: *pressures, q, finer: Vec::new(), free, doubt }
     }
@@ -236,16 +231,18 @@ fn peaked<T: Real>(values: &[T]) -> T {
     T::of(2.0) * T::pi() * most / T::count(values.len())
 }
 
-/// Returns the coefficients of a cosine series from its values, [`POINTS`] times a power of two.
-/// The even ones belong to half as many values, the means of those at θ and π - θ; so do the sums
-/// of two odd ones that follow each other, by the products of half their differences with 2 cos θ.
+/// Returns the coefficients of a cosine series from its values by rising x, [`POINTS`] times a power
+/// of two. The even ones belong to half as many values, the means of those at θ and π - θ; so do the
+/// sums of two odd ones that follow each other, by the products of half their differences with
+/// 2 cos θ.
 fn coefficients<T: Real>(values: &[T]) -> Vec<T> {
-    let count = values.len();
-    if count == POINTS {
-        return (0..count).map(|n| coefficient(n, values, &COSINES)).collect();
+    if let Ok(values) = values.try_into() {
+        return Table::of(POINTS).coefficients::<POINTS, T>(values).to_vec();
     }
-    let pairs = || values[..count / 2].iter().zip(values.iter().rev());
-    let twice = |i: usize| T::of(2.0 * (PI * (i as f64 + 0.5) / count as f64).cos());
+    // From the middle, so by rising cos 2θ.
+    let (left, right) = values.split_at(values.len() / 2);
+    let pairs = || right.iter().zip(left.iter().rev());
+    let twice = |i: usize| T::of(2.0 * (PI * (i as f64 + 0.5) / values.len() as f64).sin());
     let even: Vec<T> = pairs().map(|(&one, &other)| T::of(0.5) * (one + other)).collect();
     let odd = pairs().enumerate().map(|(i, (&one, &other))| twice(i) * T::of(0.5) * (one - other));
     let [even, sums] = [even, odd.collect()].map(|values| coefficients(&values));
@@ -255,17 +252,6 @@ fn coefficients<T: Real>(values: &[T]) -> Vec<T> {
         [even, last]
     });
     both.collect()
-}
-
-/// Returns coefficient n of a cosine series from [`POINTS`] values.
-fn coefficient<T: Real>(n: usize, values: &[T], cosines: &[f64; 4 * POINTS]) -> T {
-    let (mut sum, mut angle) = (T::zero(), n);
-    for &value in values {
-        sum += value * T::of(cosines[angle]);
-        angle = (angle + 2 * n) & (4 * POINTS - 1);
-    }
-    sum /= T::count(POINTS);
-    if n == 0 { sum } else { sum + sum }
 }
 
 #[cfg(test)]
@@ -295,7 +281,7 @@ mod tests {
     #[test]
     fn many_coefficients_are_right() {
         let count = 1 << 16;
-        let angle = |i: usize| PI * (i as f64 + 0.5) / count as f64;
+        let angle = |i: usize| PI * ((count - i) as f64 - 0.5) / count as f64;
         let values: Vec<f64> = (0..count).map(|i| (angle(i).cos() - 0.3).abs().ln()).collect();
         let found = coefficients(&values);
         for n in [0, 1, 2, 31, 32, 500, 4097, 60_001] {

@@ -13,8 +13,8 @@ use super::exterior_field::{ExteriorField, ExteriorFields, POINTS};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::PanelIntegrator;
 use crate::quadrature::{Integrator, LoadCase};
-use crate::solution::ContactState;
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::solution::{Closeness, ContactState, Inside, Tensions};
+use crate::{ContactError, Ends, Extremum, Interval, Real, Side};
 pub(super) use outside::Overlaps;
 pub(super) use passed::{Passed, Under};
 use std::cmp::Ordering;
@@ -37,20 +37,9 @@ const HALVES: usize = 52;
 /// the least one found: κ/π times its slope.
 const FAINT: f64 = 0.02;
 
-/// Largest fall of the pressure to a minimum between the places evaluated, in falls of the parabola
-/// through three of them: next to a knot of a spline 3.3 has been seen.
-const MOST_BELOW: f64 = 8.0;
-
 /// Largest distance of a corner from a limit, as a share of the half-width, to act on the series of
 /// the pressure.
 const BESIDE: f64 = 0.1;
-
-/// Error of this parabola at a minimum, as a share of the fall to it, if no pressure at a vertex
-/// shows it.
-const ASKEW: f64 = 0.01;
-
-/// Largest number of steps to a minimum of the pressure between the places evaluated.
-const MAX_STEPS: usize = 4;
 
 /// Contacts of a solution, ready to be checked.
 pub(super) struct SignoriniCheck<'c, T: Real> {
@@ -68,17 +57,15 @@ pub(super) struct SignoriniCheck<'c, T: Real> {
     pub pressed: &'c [Interval<T>],
 }
 
-/// Spans of tension, and room for nodes and pressures `[x, P]`.
+/// Spans of tension.
 #[derive(Clone)]
 pub(super) struct TensionSpans<T> {
     pub spans: Vec<Interval<T>>,
-    nodes: Vec<T>,
-    seen: Vec<[T; 2]>,
 }
 
 impl<T> TensionSpans<T> {
     pub fn new() -> Self {
-        Self { spans: Vec::new(), nodes: Vec::new(), seen: Vec::new() }
+        Self { spans: Vec::new() }
     }
 }
 
@@ -89,10 +76,10 @@ fn by_size<T: Real>(one: T, other: T) -> Ordering {
 }
 
 impl<T: Real> SignoriniCheck<'_, T> {
-    /// Tells whether a place is in a contact under a lighter load.
-    fn is_pressed(&self, x: T) -> bool {
-        let on = self.pressed.get(self.pressed.partition_point(|on| on.right < x));
-        on.is_some_and(|on| on.contains(x))
+    /// Tells whether a span is in a contact under a lighter load.
+    fn is_pressed(&self, [from, to]: [T; 2]) -> bool {
+        let on = self.pressed.get(self.pressed.partition_point(|on| on.right < from));
+        on.is_some_and(|on| on.contains(from) && on.contains(to))
     }
 
     fn load_case(&self) -> LoadCase<T> {
@@ -187,7 +174,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     pub fn tension(
         &self,
         fields: &mut ExteriorFields<T>,
-        TensionSpans { spans: tension_spans, nodes, seen }: &mut TensionSpans<T>,
+        TensionSpans { spans: tension_spans }: &mut TensionSpans<T>,
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
         tension_spans.clear();
         let adhesive = self.found.adhesive != Ends::both(false);
@@ -198,70 +185,16 @@ impl<T: Real> SignoriniCheck<'_, T> {
             return Ok(None);
         }
         self.fields(fields)?;
-        let mut found: Vec<[T; 2]> = Vec::new();
-        let mut meet = |x: T, pressure: T, allowed: T| {
-            // NaN counts as tension.
-            let presses = pressure >= -allowed;
-            if !presses && !self.closed.iter().any(|closed| closed.contains(x)) {
-                found.push([x, pressure]);
-            }
-        };
+        let (x, value) = (self.found.interval.left, T::zero());
+        let mut tensions = Tensions::below(Some(Extremum { x, value }));
         for (i, field) in fields.each.iter().enumerate() {
-            let on = field.on;
-            let mean = field.load().abs() / on.half_width();
-            // The uncertainty of a pressure is estimated below.
-            let allowed = ContactState::<T>::rounding()
-                * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
-            seen.clear();
-            let both = ExteriorField::places(on).into_iter().zip(&field.pressures);
-            seen.extend(both.map(|(x, &pressure)| [x, pressure]));
-            let by_weight = |least: T, &[x, p]: &[T; 2]| least.min(p / on.chebyshev_weight(x));
-            let least = seen.iter().fold(T::one() / T::zero(), by_weight).max(T::zero());
-            let faint = |x: T| T::of(FAINT) * T::pi() * least / self.kappa * on.chebyshev_weight(x);
-            // Features that the panels resolve are not narrower than the spacing of their nodes.
-            nodes.clear();
-            self.panels.nodes(i, faint, nodes);
-            nodes.retain(|&x| on.contains(x) && !self.is_pressed(x));
-            for places in nodes.chunks(POINTS) {
-                let mut pressures = [T::zero(); POINTS];
-                let pressures = &mut pressures[..places.len()];
-                self.pressures(places, pressures)?;
-                seen.extend(places.iter().zip(pressures).map(|(&x, &mut pressure)| [x, pressure]));
-            }
-            seen.sort_by(|one, other| by_size(one[0], other[0]));
-            seen.iter().for_each(|&[x, pressure]| meet(x, pressure, allowed));
-            // Between these places, at the vertex of the parabola through each minimum and its
-            // neighbours, and through places nearer and nearer to it: the parabola may be as wrong
-            // about the minimum as about the pressure at its vertex.
-            for near in seen.windows(3) {
-                let (mut x, mut p) = ([0, 1, 2].map(|i| near[i][0]), [0, 1, 2].map(|i| near[i][1]));
-                if !(p[1] <= p[0] && p[1] <= p[2]) || self.is_pressed(x[1]) {
-                    continue;
-                }
-                let mut wrong = T::of(ASKEW) * (p[0].min(p[2]) - p[1]);
-                for _ in 0..MAX_STEPS {
-                    let [one, two] = [x[1] - x[0], x[2] - x[1]];
-                    let [fall, rise] = [(p[1] - p[0]) / one, (p[2] - p[1]) / two];
-                    let bend = (rise - fall) / (one + two);
-                    let slope = (fall * two + rise * one) / (one + two);
-                    let vertex = x[1] - T::of(0.5) * slope / bend;
-                    let below = p[1] - T::of(0.25) * slope * slope / bend;
-                    // A minimum far above zero needs no closer look.
-                    let is_near = p[1] < T::of(MOST_BELOW) * (p[1] - below).max(wrong);
-                    if !(is_near && vertex > x[0] && vertex < x[2]) || vertex == x[1] {
-                        break;
-                    }
-                    let aside = T::of(0.25) * (vertex - x[0]).min(x[2] - vertex);
-                    x = [vertex - aside, vertex, vertex + aside];
-                    self.pressures(&x, &mut p)?;
-                    x.iter().zip(p).for_each(|(&x, pressure)| meet(x, pressure, allowed));
-                    wrong = (p[1] - below).abs();
-                }
-            }
+            self.look_into(i, field, &mut tensions)?;
         }
-        found.sort_by(|one, other| by_size(one[1], other[1]));
+        let mut found = tensions.found;
+        found.retain(|place| !self.closed.iter().any(|closed| closed.contains(place.x)));
+        found.sort_by(|one, other| by_size(one.value, other.value));
         let mut worst = None;
-        for &[x, pressure] in found.iter().take(MAX_DOUBTFUL) {
+        for &Extremum { x, value: pressure } in found.iter().take(MAX_DOUBTFUL) {
             if tension_spans.iter().any(|span| span.contains(x)) {
                 continue;
             }
@@ -280,6 +213,34 @@ impl<T: Real> SignoriniCheck<'_, T> {
             });
         }
         Ok(worst)
+    }
+
+    /// Looks for tension in one contact, given the series of its pressure.
+    fn look_into(
+        &self,
+        contact: usize,
+        field: &ExteriorField<T>,
+        found: &mut Tensions<T>,
+    ) -> Result<(), ContactError<T>> {
+        let (on, x) = (field.on, ExteriorField::places(field.on));
+        let mean = field.load().abs() / on.half_width();
+        // The uncertainty of a pressure is estimated afterwards.
+        let allowed = ContactState::<T>::rounding()
+            * mean.max(self.found.load.abs() / on.half_width() * T::epsilon());
+        let free = self.panels.free_of(contact, self.found.free);
+        let (pressures, closeness) =
+            (&|x: &[T], out: &mut [T]| self.pressures(x, out), Closeness::OF_A_SOLVE);
+        let inside = Inside { pressures, on, free, allowed, closeness };
+        found.meet(&x, &field.pressures, allowed);
+        let drops: Vec<T> =
+            self.panels.drops(contact).filter(|&x| !self.is_pressed([x; 2])).collect();
+        inside.look_at(&drops, found)?;
+        // A feature of the slope may be narrower than the distance of these places, but not than its
+        // panel.
+        let faint = T::of(FAINT) * T::pi() / self.kappa * inside.least(&x, &field.pressures);
+        let uneven = self.panels.uneven(contact, |x| faint / inside.factor(x));
+        let mut uneven = uneven.filter(|&span| !self.is_pressed(span));
+        uneven.try_for_each(|span| inside.bound(span, found))
     }
 
     /// Returns the nearest place with pressure to one without, among places each twice as far away

@@ -198,22 +198,27 @@ pub(super) fn across<'p, const N: usize, T: Real>(
 const LEAST_FALL: f64 = 16.0;
 
 impl<T: Real> PanelIntegrator<T> {
-    /// Adds the nodes of the panels of one contact, and the places where the slope falls. Of many
-    /// panels, it adds those whose slope differs by more than allowed from one smooth series over
-    /// the contact.
-    pub(crate) fn nodes(&self, contact: usize, allowed: impl Fn(T) -> T, nodes: &mut Vec<T>) {
+    /// Lists the places in a contact where the slope falls from one panel to the next.
+    pub(crate) fn drops(&self, contact: usize) -> impl Iterator<Item = T> {
         let (PanelSet { panels, tolerance, size, .. }, on) = self.contact(contact);
-        let panels = within(panels, on);
-        let falls = |pair: &&[Panel<T>]| {
+        let falls = move |pair: &&[Panel<T>]| {
             let error = pair[0].error.max(pair[1].error) + *tolerance * *size;
             pair[0].at_ends()[1] - pair[1].at_ends()[0] > T::of(LEAST_FALL) * error
         };
-        nodes.extend(panels.windows(2).filter(falls).map(|pair| pair[0].x[1]));
-        if panels.len() < MANY {
-            return nodes.extend(panels.iter().flat_map(Panel::nodes));
-        }
-        let is_same = |_: &Panel<T>, missed: T, x| missed.abs() <= allowed(x);
-        nodes.extend(across::<SMOOTH, T>(panels, on, is_same).1.flat_map(Panel::nodes));
+        within(panels, on).windows(2).filter(falls).map(|pair| pair[0].x[1])
+    }
+
+    /// Lists the parts of a contact whose panels differ by more than allowed from one smooth series
+    /// over it.
+    pub(crate) fn uneven<'p>(
+        &'p self,
+        contact: usize,
+        allowed: impl Fn(T) -> T + 'p,
+    ) -> impl Iterator<Item = [T; 2]> + 'p {
+        let (PanelSet { panels, .. }, on) = self.contact(contact);
+        let is_same = move |_: &Panel<T>, missed: T, x| missed.abs() <= allowed(x);
+        let (_, uneven) = across::<SMOOTH, T>(within(panels, on), on, is_same);
+        uneven.map(move |panel| [panel.x[0].max(on.left), panel.x[1].min(on.right)])
     }
 
     /// Lists the rises of the gap from node to node of the panels of all contacts, before the

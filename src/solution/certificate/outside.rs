@@ -8,13 +8,13 @@
 //! the gap stops growing.
 
 use super::cells::Cells;
-use super::series_bounds::{above, below, extremes, integral, least, truncation_error};
-use super::{ContactState, Extremum, nearer, undecided};
+use super::{ContactState, Extremum, undecided};
 use crate::gap::Cost;
 use crate::numerics::chebyshev::Table;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels::{Panel, Several, System};
 use crate::solution::BLIND;
+use crate::solution::check::{above, below, extremes, integral, least, nearer, truncation_error};
 use crate::{ContactError, Interval, Real, Side};
 
 /// Number of nodes of a cell.

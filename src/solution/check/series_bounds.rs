@@ -8,18 +8,18 @@ use crate::quadrature::panels::Panel;
 const MAX_HALVES: usize = 512;
 
 /// Returns a lower bound of the series.
-pub(super) fn below<T: Real>(series: &[T]) -> T {
+pub(in crate::solution) fn below<T: Real>(series: &[T]) -> T {
     let others = series[1..].iter().fold(T::zero(), |sum, a| sum + a.abs());
     series[0] - others
 }
 
 /// Returns an upper bound of the series.
-pub(super) fn above<T: Real>(series: &[T]) -> T {
+pub(in crate::solution) fn above<T: Real>(series: &[T]) -> T {
     series.iter().skip(1).fold(series[0], |sum, a| sum + a.abs())
 }
 
 /// Returns a lower and an upper bound of the slope on panels.
-pub(super) fn extremes<T: Real>(panels: &[Panel<T>]) -> [T; 2] {
+pub(in crate::solution) fn extremes<T: Real>(panels: &[Panel<T>]) -> [T; 2] {
     let infinite = T::one() / T::zero();
     panels.iter().map(Panel::coefficients).fold([infinite, -infinite], |[least, most], series| {
         [least.min(below(series)), most.max(above(series))]
@@ -28,7 +28,7 @@ pub(super) fn extremes<T: Real>(panels: &[Panel<T>]) -> [T; 2] {
 
 /// Returns the place of the minimum, from -1 to 1, and its value to within `enough`: halves whose
 /// bound is not below the best known value are skipped.
-pub(super) fn least<T: Real>(series: &[T], enough: T) -> [T; 2] {
+pub(in crate::solution) fn least<T: Real>(series: &[T], enough: T) -> [T; 2] {
     let one = T::one();
     let mut best = [-one, value_at(series, -one)];
     let mut waiting = vec![[-one, one]];
@@ -51,7 +51,7 @@ pub(super) fn least<T: Real>(series: &[T], enough: T) -> [T; 2] {
 }
 
 /// Returns the coefficients of the integral from -1, one more than `series` has.
-pub(super) fn integral<T: Real>(series: &[T]) -> Vec<T> {
+pub(in crate::solution) fn integral<T: Real>(series: &[T]) -> Vec<T> {
     let n = series.len();
     let at = |k: usize| series.get(k).copied().unwrap_or(T::zero());
     let mut sums = vec![T::zero(); n + 1];
@@ -64,7 +64,7 @@ pub(super) fn integral<T: Real>(series: &[T]) -> Vec<T> {
 }
 
 /// Estimates the truncation error from the last coefficients.
-pub(super) fn truncation_error<T: Real>(series: &[T]) -> T {
+pub(in crate::solution) fn truncation_error<T: Real>(series: &[T]) -> T {
     let n = series.len();
     // NaN in one value is in all coefficients, and resolves nothing.
     let last =

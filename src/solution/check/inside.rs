@@ -1,0 +1,249 @@
+//! Sign of the pressure inside a contact.
+//!
+//! If the slope of the gap rises throughout, the pressure is positive, as an integral of g' with a
+//! positive kernel. Otherwise the bounded function is the pressure times the square root of the
+//! distance from an edge, or at a free edge divided by it: a function that is smooth between the
+//! breakpoints and as positive at the edges as elsewhere. Between breakpoints it is a Chebyshev
+//! series on cells, which are halved until the coefficients show the sign; so the cells are graded
+//! towards the logarithms at the breakpoints.
+
+use super::series_bounds::{below, least, truncation_error};
+use super::{Closeness, Extremum, nearer};
+use crate::numerics::chebyshev::Table;
+use crate::{ContactError, Ends, Interval, Real};
+
+/// Number of nodes of a cell.
+const NODES: usize = 16;
+/// Largest number of cells in all.
+const MAX_CELLS: usize = 1 << 16;
+
+/// Nodes of a cell, and the pressures there.
+type Cell<T> = [[T; NODES]; 2];
+
+/// Results so far: places with tension, and the least ratio.
+pub(crate) struct Tensions<T> {
+    pub found: Vec<Extremum<T>>,
+    pub ratio: Option<Extremum<T>>,
+    cells: usize,
+    /// Place from which on there were too many cells.
+    pub given_up: Option<T>,
+}
+
+/// Contact with known pressures.
+pub(crate) struct Inside<'c, T: Real> {
+    pub pressures: &'c dyn Fn(&[T], &mut [T]) -> Result<(), ContactError<T>>,
+    pub on: Interval<T>,
+    /// Flags: the limit is free.
+    pub free: Ends<bool>,
+    /// Largest tension that counts as zero.
+    pub allowed: T,
+    pub closeness: Closeness,
+}
+
+/// Sign of a series: positive, by a bound, that of the least value `[s, value]`, or not known.
+enum Sign<T> {
+    Above(T),
+    OfLeast([T; 2]),
+    Open,
+}
+
+impl<T: Real> Tensions<T> {
+    /// Returns no places yet; a ratio counts if it is less than one that is known.
+    pub fn below(known: Option<Extremum<T>>) -> Self {
+        Self { found: Vec::new(), ratio: known, cells: 0, given_up: None }
+    }
+
+    /// Returns the deepest tension; NaN if that was met first.
+    pub fn worst(&self) -> Option<Extremum<T>> {
+        self.found.iter().fold(None, |worst, &place| nearer(Some(place), worst))
+    }
+
+    /// Records pressures that are tensions.
+    pub fn meet(&mut self, x: &[T], pressures: &[T], allowed: T) {
+        // NaN counts as tension.
+        let presses = |value: T| value >= -allowed;
+        let both = x.iter().zip(pressures).filter(|&(_, &value)| !presses(value));
+        self.found.extend(both.map(|(&x, &value)| Extremum { x, value }));
+    }
+}
+
+impl<T: Real> Inside<'_, T> {
+    /// Looks at the pressures at places.
+    pub fn look_at(&self, places: &[T], found: &mut Tensions<T>) -> Result<(), ContactError<T>> {
+        let mut pressures = vec![T::zero(); places.len()];
+        (self.pressures)(places, &mut pressures)?;
+        found.meet(places, &pressures, self.allowed);
+        Ok(())
+    }
+
+    /// Returns the least ratio of the pressure to that under a smooth body, or a positive bound of
+    /// it, from pressures at the Chebyshev nodes of the contact. It is negative if they do not show
+    /// it.
+    pub fn least<const N: usize>(&self, x: &[T; N], pressures: &[T; N]) -> T {
+        match self.sign(&self.series(x, pressures), T::zero()) {
+            Sign::Above(least) | Sign::OfLeast([_, least]) => least,
+            Sign::Open => -T::one(),
+        }
+    }
+
+    /// Bounds this ratio on a span between two breakpoints.
+    pub fn bound(&self, span: [T; 2], found: &mut Tensions<T>) -> Result<(), ContactError<T>> {
+        let mut waiting = vec![(span, 0)];
+        while let Some(([from, to], level)) = waiting.pop() {
+            found.cells += 1;
+            if found.cells > MAX_CELLS {
+                found.given_up = found.given_up.or(Some(from));
+                return Ok(());
+            }
+            let middle = T::of(0.5) * from + T::of(0.5) * to;
+            let Some([x, pressures]) = self.cell([from, to])? else { continue };
+            let known = found.ratio.map_or(T::one() / T::zero(), |ratio| ratio.value);
+            let sign = self.sign(&self.series(&x, &pressures), known);
+            if let Sign::OfLeast([s, value]) = sign {
+                let at = (middle + s * T::of(0.5) * (to - from)).max(from).min(to);
+                found.ratio = nearer(Some(Extremum { x: at, value }), found.ratio);
+                if value < -self.allowed {
+                    self.look_at(&[at], found)?;
+                    self.deepest([from, to], [x, pressures], found)?;
+                }
+            }
+            if !matches!(sign, Sign::Open) {
+                continue;
+            }
+            if level < self.closeness.levels && middle > from && middle < to {
+                waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
+            } else {
+                found.meet(&x, &pressures, self.allowed);
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the sign of a series, or that it is above a known ratio.
+    fn sign<const N: usize>(&self, series: &[T; N], known: T) -> Sign<T> {
+        let left_out = truncation_error(series);
+        let size = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
+        let bound = below(series) - left_out;
+        if bound > T::zero() && known <= bound {
+            return Sign::Above(bound);
+        }
+        let coarse = T::epsilon().sqrt() * size;
+        if left_out <= T::of(0.25) * self.allowed || (bound > T::zero() && left_out <= coarse) {
+            // The sign is the sign of the polynomial, up to `allowed`.
+            let enough = if bound > T::zero() { coarse } else { T::of(1e-4) * self.allowed };
+            return Sign::OfLeast(least(series, enough));
+        }
+        let share = T::of(self.closeness.share);
+        let rough = (share > T::zero()).then(|| least(series, T::of(0.5) * left_out));
+        let is_known = |&[_, value]: &[T; 2]| left_out <= share * value.abs();
+        rough.filter(is_known).map_or(Sign::Open, Sign::OfLeast)
+    }
+
+    /// Returns the nodes of a cell and the pressures there; `None` if they do not fit between its
+    /// ends.
+    fn cell(&self, [from, to]: [T; 2]) -> Result<Option<Cell<T>>, ContactError<T>> {
+        let (half, table) = (T::of(0.5), Table::of(NODES));
+        let (middle, reach) = (half * from + half * to, half * (to - from));
+        let x: [T; NODES] = std::array::from_fn(|i| middle + reach * T::of(table.z[i]));
+        if x[0] <= from || x[NODES - 1] >= to {
+            return Ok(None);
+        }
+        let mut pressures = [T::zero(); NODES];
+        (self.pressures)(&x, &mut pressures)?;
+        Ok(Some([x, pressures]))
+    }
+
+    /// Returns the series of the ratio from the pressures at the nodes of a cell.
+    fn series<const N: usize>(&self, x: &[T; N], pressures: &[T; N]) -> [T; N] {
+        let smooth: [T; N] = std::array::from_fn(|i| pressures[i] * self.factor(x[i]));
+        Table::of(N).coefficients(&smooth)
+    }
+
+    /// Returns the factor that makes the pressure smooth at the edges.
+    pub fn factor(&self, x: T) -> T {
+        let free = self.free;
+        let by_half_width = T::one() / self.on.half_width();
+        let part = |distance: T, free: bool| {
+            let root = (distance * by_half_width).sqrt();
+            if free { T::one() / root } else { root }
+        };
+        part(self.on.right - x, free.right) * part(x - self.on.left, free.left)
+    }
+
+    /// Looks for the least pressure on a cell where it is negative, by shrinking a grid.
+    fn deepest(
+        &self,
+        [mut from, mut to]: [T; 2],
+        mut cell: Cell<T>,
+        found: &mut Tensions<T>,
+    ) -> Result<(), ContactError<T>> {
+        for grid in 0.. {
+            let [x, pressures] = cell;
+            found.meet(&x, &pressures, self.allowed);
+            let lower =
+                |best: usize, i: usize| if pressures[i] < pressures[best] { i } else { best };
+            let best = (0..NODES).fold(0, lower);
+            from = if best == 0 { from } else { x[best - 1] };
+            to = x.get(best + 1).copied().unwrap_or(to);
+            let finer = if grid < self.closeness.grids { self.cell([from, to])? } else { None };
+            let Some(finer) = finer else { break };
+            cell = finer;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pressures that are no numbers prove nothing.
+    #[test]
+    fn a_pressure_that_is_unknown_decides_nothing() {
+        let on = Interval { left: -0.2, right: 0.2 };
+        let free = Ends::both(true);
+        for closeness in [Closeness::OF_A_SOLVE, Closeness::OF_A_PROOF] {
+            for hidden in [0.0, 1e-12, 0.1] {
+                let pressures = |x: &[f64], pressures: &mut [f64]| {
+                    for (pressure, x) in pressures.iter_mut().zip(x) {
+                        let is_hidden = (x - 0.1).abs() < hidden;
+                        *pressure = if is_hidden { f64::NAN } else { on.chebyshev_weight(*x) };
+                    }
+                    Ok(())
+                };
+                let inside = Inside { pressures: &pressures, on, free, allowed: 1e-9, closeness };
+                let mut found = Tensions::below(None);
+                inside.look_at(&[0.1], &mut found).unwrap();
+                inside.bound([-0.2, 0.1], &mut found).unwrap();
+                inside.bound([0.1, 0.2], &mut found).unwrap();
+                let is_unknown = found.worst().is_some_and(|worst| worst.value.is_nan());
+                assert_eq!(is_unknown, hidden > 0.0, "{hidden}: {:?}", found.found);
+            }
+        }
+    }
+
+    /// A dip no narrower than a tenth of a span is found, and none is accused that is not there.
+    #[test]
+    fn a_solve_finds_the_tension_that_a_proof_does() {
+        let on = Interval { left: -1.0, right: 1.0 };
+        for (least, width) in [(-1e-3, 1.0), (1e-3, 1.0), (-1e-3, 0.01), (1e-3, 0.01)] {
+            let pressures = |x: &[f64], pressures: &mut [f64]| {
+                for (pressure, x) in pressures.iter_mut().zip(x) {
+                    let z = (x - 0.0123) / width;
+                    let dip = (1.0 - least) / (1.0 + z * z);
+                    *pressure = on.chebyshev_weight(*x) * (1.0 - dip);
+                }
+                Ok(())
+            };
+            for closeness in [Closeness::OF_A_SOLVE, Closeness::OF_A_PROOF] {
+                let (free, mut found) = (Ends::both(true), Tensions::below(None));
+                let inside = Inside { pressures: &pressures, on, free, allowed: 1e-12, closeness };
+                let span = [-1.0, 1.0].map(|end: f64| end * (5.0 * width).min(1.0));
+                inside.bound(span, &mut found).unwrap();
+                assert_eq!(found.worst().is_some(), least < 0.0, "{least} {width}");
+                let near = found.worst().is_none_or(|worst| (worst.x - 0.0123).abs() < 0.1 * width);
+                assert!(near, "{least} {width}: {:?}", found.worst());
+            }
+        }
+    }
+}
