@@ -17,16 +17,14 @@ pub(crate) struct Closeness {
     pub share: f64,
     /// Largest number of halvings of a span.
     pub levels: usize,
-    /// Number of grids around the deepest of some tensions, each over two steps of the one before.
-    pub grids: usize,
 }
 
 impl Closeness {
     /// Signs, in spans down to a 256th of a panel: eight of its nodes may be as near to its end.
-    pub const OF_A_SOLVE: Self = Self { share: 1.0, levels: 8, grids: 0 };
+    pub const OF_A_SOLVE: Self = Self { share: 1.0, levels: 8 };
 
-    /// Values, down to rounding: 2⁻⁵² of a span, and 7⁻¹¹ of a cell.
-    pub const OF_A_PROOF: Self = Self { share: 0.0, levels: 52, grids: 11 };
+    /// Values, down to rounding: 2⁻⁵² of a span.
+    pub const OF_A_PROOF: Self = Self { share: 0.0, levels: 52 };
 }
 
 /// Returns the lower of two extrema.

@@ -95,16 +95,20 @@ impl<T: Real> Inside<'_, T> {
                 found.given_up = found.given_up.or(Some(from));
                 return Ok(());
             }
-            let middle = T::of(0.5) * from + T::of(0.5) * to;
+            let (middle, half) = (T::of(0.5) * from + T::of(0.5) * to, T::of(0.5) * (to - from));
+            let place = |s: T| (middle + s * half).max(from).min(to);
             let Some([x, pressures]) = self.cell([from, to])? else { continue };
             let known = found.ratio.map_or(T::one() / T::zero(), |ratio| ratio.value);
             let sign = self.sign(&self.series(&x, &pressures), known);
             if let Sign::OfLeast([s, value]) = sign {
-                let at = (middle + s * T::of(0.5) * (to - from)).max(from).min(to);
-                found.ratio = nearer(Some(Extremum { x: at, value }), found.ratio);
+                found.ratio = nearer(Some(Extremum { x: place(s), value }), found.ratio);
                 if value < -self.allowed {
-                    self.look_at(&[at], found)?;
-                    self.deepest([from, to], [x, pressures], found)?;
+                    found.meet(&x, &pressures, self.allowed);
+                    let series = Table::of(NODES).coefficients(&pressures);
+                    // The place of a least value is known to the root of this.
+                    let enough = T::epsilon().powf(T::of(0.75)) * value.abs();
+                    let [deepest, _] = least(&series, enough);
+                    self.look_at(&[place(s), place(deepest)], found)?;
                 }
             }
             if !matches!(sign, Sign::Open) {
@@ -168,28 +172,6 @@ impl<T: Real> Inside<'_, T> {
             if free { T::one() / root } else { root }
         };
         part(self.on.right - x, free.right) * part(x - self.on.left, free.left)
-    }
-
-    /// Looks for the least pressure on a cell where it is negative, by shrinking a grid.
-    fn deepest(
-        &self,
-        [mut from, mut to]: [T; 2],
-        mut cell: Cell<T>,
-        found: &mut Tensions<T>,
-    ) -> Result<(), ContactError<T>> {
-        for grid in 0.. {
-            let [x, pressures] = cell;
-            found.meet(&x, &pressures, self.allowed);
-            let lower =
-                |best: usize, i: usize| if pressures[i] < pressures[best] { i } else { best };
-            let best = (0..NODES).fold(0, lower);
-            from = if best == 0 { from } else { x[best - 1] };
-            to = x.get(best + 1).copied().unwrap_or(to);
-            let finer = if grid < self.closeness.grids { self.cell([from, to])? } else { None };
-            let Some(finer) = finer else { break };
-            cell = finer;
-        }
-        Ok(())
     }
 }
 
