@@ -52,7 +52,7 @@ pub(crate) use approach::Approaching;
 pub(crate) use certificate::certify;
 pub use certificate::{Certificate, Extremum};
 pub(crate) use check::{Closeness, Inside, Tensions};
-pub(crate) use contact_state::{BLIND, ContactState};
+pub(crate) use contact_state::ContactState;
 pub use load_rates::LoadRates;
 pub use partial_slip::{PartialSlip, Shear, SlipStress, Traction};
 pub use peak::Peak;

@@ -122,12 +122,13 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     let by_default = (ends.right - ends.left) * T::of(LONGEST_CELL);
     let spacing = gap.resolution().map_or(by_default, |w| by_default.min(T::of(WIDTHS) * w));
     let mut cells = Cells::new(gap, spacing);
+    let steepest = |&[least, most]: &[T; 2]| most.max(-least);
     let (mut rows, mut slopes, mut doubt) = (Vec::new(), Vec::new(), T::zero());
     for (i, on) in contacts.iter().enumerate() {
         let row = cells.over(&cells.places(on.left, on.right, on.half_width()))?;
         slopes.push(extremes(&row.panels));
-        let steepest = slopes[i].into_iter().fold(T::zero(), |most, slope| most.max(slope.abs()));
-        doubt = doubt.max(cells.compare(&row.panels, |x| solved.sampled_slope(i, x), steepest)?);
+        let assumed = |x| solved.sampled_slope(i, x);
+        doubt = doubt.max(cells.compare(&row.panels, assumed, steepest(&slopes[i]))?);
         rows.push(row);
     }
     let (mut several, mut system) = (Several::sampled(rows), System::new());
@@ -140,7 +141,7 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
         cells.heights(several.panel_set(i), [on.left, on.centre(), on.right])?;
     }
     balanced(kappa, found, &several, &mut system, doubt)?;
-    let steepest = slopes.iter().flatten().fold(T::zero(), |most: T, slope| most.max(slope.abs()));
+    let steepest = slopes.iter().map(steepest).fold(T::zero(), T::max);
     let rises = |on| rises_over(&several.panel_set(0).panels, on, share * steepest);
     let is_plain = contacts.len() == 1 && rises(contacts[0]);
     let pressure = match is_plain || adhesive != Ends::both(false) {
@@ -203,11 +204,7 @@ impl<T: Real> Loaded<'_, T> {
                 (worst, closest) = (nearer(worst, outside.worst), nearer(closest, outside.closest));
             }
         }
-        if let Some(Extremum { x, value: gap }) = worst {
-            let ContactState { interval, load, .. } = *found;
-            return Err(SolveError::Overlap { x, gap, interval, load }.into());
-        }
-        Ok(closest)
+        worst.map_or(Ok(closest), |Extremum { x, value }| Err(found.overlap(x, value).into()))
     }
 }
 
@@ -224,8 +221,7 @@ fn presses_at<T: Real>(
     for side in [Side::Right, Side::Left] {
         let presses = strengths[side] >= -found.zero_tolerance() * pressed;
         if at_corner[side] && !presses {
-            let (x, pressure) = (interval[side], -T::one() / T::zero());
-            return Err(SolveError::Tension { x, pressure, interval, load }.into());
+            return Err(found.tension(interval[side], -T::one() / T::zero()).into());
         }
     }
     Ok(())
@@ -236,11 +232,10 @@ fn presses_at<T: Real>(
 fn least_pressure<T: Real>(
     gap: &Gap<'_, T>,
     kappa: T,
-    found: &ContactState<T>,
+    state: &ContactState<T>,
     several: &Several<T>,
     cost: Cost,
 ) -> Result<Extremum<T>, ContactError<T>> {
-    let ContactState { interval, load, .. } = *found;
     let pressures = |x: &[T], pressures: &mut [T]| {
         several.pressures(x, pressures);
         pressures.iter_mut().for_each(|pressure| *pressure *= kappa);
@@ -249,10 +244,10 @@ fn least_pressure<T: Real>(
     let last = several.contacts().len() - 1;
     let mut least = None;
     for (i, &on) in several.contacts().iter().enumerate() {
-        let borne = if last == 0 { load } else { borne(&pressures, on)? };
+        let borne = if last == 0 { state.load } else { borne(&pressures, on)? };
         let mean = T::of(0.5) * borne.abs() / on.half_width();
         let free = several.held()[i].map(|held| !held);
-        let (allowed, closeness) = (found.zero_tolerance() * mean, Closeness::OF_A_PROOF);
+        let (allowed, closeness) = (state.zero_tolerance() * mean, Closeness::OF_A_PROOF);
         let inside = Inside { pressures: &pressures, on, free, allowed, closeness };
         let mut found = Tensions::below(None);
         let joints: Vec<T> = gap.telling_breakpoints(on, -T::one(), MAX_JOINTS).collect();
@@ -264,14 +259,14 @@ fn least_pressure<T: Real>(
         }
         if let Some(Extremum { x, value: pressure }) = found.worst() {
             let is_known = pressure.partial_cmp(&pressure).is_some();
-            let tension = SolveError::Tension { x, pressure, interval, load };
-            return Err(if is_known { tension.into() } else { undecided(x, cost) });
+            let tension = || state.tension(x, pressure).into();
+            return Err(if is_known { tension() } else { undecided(x, cost) });
         }
         let ratio = found.given_up.map_or(found.ratio.ok_or(on.centre()), Err);
         let Extremum { x, value } = ratio.map_err(|x| undecided(x, cost))?;
         least = nearer(least, Some(Extremum { x, value: value / mean }));
     }
-    least.ok_or_else(|| undecided(interval.left, cost))
+    least.ok_or_else(|| undecided(state.interval.left, cost))
 }
 
 /// Returns the load of one of several contacts, to about a thousandth: a pressure may be infinite
@@ -321,6 +316,32 @@ mod tests {
             moment_derivatives: None,
             tilt: 0.0,
             ends,
+        }
+    }
+
+    /// A slope that is off by a millionth in the solve is off from the curves sampled anew.
+    #[test]
+    fn a_panel_that_is_falsified_is_not_certified() {
+        let body =
+            Curve::new([-1.0, 1.0], |k: f64| CurvePoint { x: k, y: 0.5 * k * k, dx: 1.0, dy: k });
+        let inversion = Inversion::default();
+        let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(&body), &inversion).unwrap();
+        // F = κ L²/2 by R = 1.
+        let (l, kappa) = (0.3, LOAD / 0.045);
+        let on = Interval { left: -l, right: l };
+        let found = state(on, Ends::both(0.0), Ends::from(gap.range()));
+        for off in [0.0, 1e-6, -1e-6] {
+            let mut solver = Engine::new(&Panels::FULL).unwrap();
+            solver.moments(&gap, on).unwrap();
+            for panel in &mut solver.panels_mut().unwrap().panel_set.panels {
+                panel.series.iter_mut().for_each(|a| *a *= 1.0 + off);
+            }
+            let solved = Solved { gap: &gap, integrator: &solver, kappa, found: &found };
+            let is_accused = matches!(
+                certify(solved),
+                Err(ContactError::Solve(SolveError::FeatureMissed { .. }))
+            );
+            assert_eq!(is_accused, off != 0.0, "{off}: {:?}", certify(solved));
         }
     }
 

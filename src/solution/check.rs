@@ -4,7 +4,7 @@ mod inside;
 mod series_bounds;
 
 pub(crate) use inside::{Inside, Tensions};
-pub(super) use series_bounds::{above, below, extremes, integral, least, truncation_error};
+pub(super) use series_bounds::{bounds, extremes, least, truncation_error};
 
 use super::Extremum;
 use crate::Real;

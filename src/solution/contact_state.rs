@@ -1,7 +1,7 @@
 //! Result of a search: a solution works out everything from it.
 
 use crate::quadrature::MomentDerivatives;
-use crate::{Ends, Interval, Real};
+use crate::{Ends, Interval, Real, SolveError};
 
 /// Largest relative error of a pressure or a gap, in multiples of the estimated error of the
 /// limits.
@@ -12,7 +12,7 @@ const MAX_TOLERANCE: f64 = 0.01;
 
 /// Distance from a corner within which a limit held there proves nothing, in errors of the limit:
 /// more than 16/π² beyond a jump, as beyond a wall that bends.
-pub(crate) const BLIND: f64 = 8.0;
+const BLIND: f64 = 8.0;
 
 /// Contact that a search has found.
 #[derive(Clone, Copy)]
@@ -62,5 +62,23 @@ impl<T: Real> ContactState<T> {
     /// Returns the relative uncertainty that rounding alone causes.
     pub fn rounding() -> T {
         T::epsilon().cbrt() * T::epsilon().cbrt()
+    }
+
+    /// Returns the distance from a limit held at a corner of a contact within which nothing is
+    /// proved.
+    pub fn blind(&self, on: Interval<T>) -> T {
+        T::of(BLIND) * self.error.unwrap_or(T::zero()) * on.half_width()
+    }
+
+    /// Returns the error for a place with tension.
+    pub fn tension(&self, x: T, pressure: T) -> SolveError<T> {
+        let Self { interval, load, .. } = *self;
+        SolveError::Tension { x, pressure, interval, load }
+    }
+
+    /// Returns the error for a place where the bodies overlap.
+    pub fn overlap(&self, x: T, gap: T) -> SolveError<T> {
+        let Self { interval, load, .. } = *self;
+        SolveError::Overlap { x, gap, interval, load }
     }
 }

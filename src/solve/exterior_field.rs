@@ -27,9 +27,8 @@ const MOST_STRETCHES: usize = 64;
 pub(crate) struct ExteriorField<T> {
     pub on: Interval<T>,
     pub pressures: [T; POINTS],
-    q: [T; POINTS],
-    /// Coefficients from more values in place of `q`, if any.
-    finer: Vec<T>,
+    /// Coefficients q₀, q₁, ...
+    pub q: Vec<T>,
     /// Flags: the pressure is zero at this limit.
     free: Ends<bool>,
     /// Uncertainty of the potential at the limits, due to the coefficients left out.
@@ -54,31 +53,27 @@ impl<T: Real> ExteriorField<T> {
         x: &[T; POINTS],
         pressures: &[T; POINTS],
     ) -> Self {
-        let bounded: [T; POINTS] =
-            std::array::from_fn(|i| pressures[i] * on.chebyshev_weight(x[i]));
-        let q = Table::of(POINTS).coefficients(&bounded);
-        let doubt = tail(&q, free);
-        Self { on, pressures: *pressures, q, finer: Vec::new(), free, doubt }
+        let (q, doubt) = (Vec::new(), T::zero());
+        let mut field = Self { on, pressures: *pressures, q, free, doubt };
+        field.refine(x, pressures.to_vec());
+        field
     }
 
-    /// Recomputes the coefficients from the pressures at more places.
+    /// Computes the coefficients from the pressures at as many [places](Self::place).
     pub fn refine(&mut self, x: &[T], mut pressures: Vec<T>) {
         pressures.iter_mut().zip(x).for_each(|(p, &x)| *p *= self.on.chebyshev_weight(x));
-        self.finer = coefficients(&pressures);
-        self.doubt = tail(&self.finer, self.free).max(peaked(&pressures));
-    }
-
-    /// Returns the coefficients q₀, q₁, ...
-    pub fn coefficients(&self) -> &[T] {
-        if self.finer.is_empty() { &self.q } else { &self.finer }
+        self.q = coefficients(&pressures);
+        self.doubt = tail(&self.q, self.free);
+        if self.q.len() > POINTS {
+            self.doubt = self.doubt.max(peaked(&pressures));
+        }
     }
 
     /// Returns `∫ P ln|x - s| ds` at a place that is not inside the contact.
     pub fn potential(&self, x: T) -> T {
         let [u, _] = self.joukowski(x);
         let (mut sum, mut power) = (T::zero(), T::one());
-        let all = self.coefficients();
-        for (n, &q) in all.iter().enumerate().skip(1) {
+        for (n, &q) in self.q.iter().enumerate().skip(1) {
             power *= u;
             // From afar a contact is a line load.
             if power.abs() < T::epsilon() {
@@ -86,7 +81,7 @@ impl<T: Real> ExteriorField<T> {
             }
             sum += q * power / T::count(n);
         }
-        T::pi() * (all[0] * (T::of(0.5) * self.on.half_width() / u.abs()).ln() - sum)
+        T::pi() * (self.q[0] * (T::of(0.5) * self.on.half_width() / u.abs()).ln() - sum)
     }
 
     /// Returns u at a place that is not inside the contact, and `sqrt((x - a)(x + b))` there.
@@ -106,7 +101,7 @@ impl<T: Real> ExteriorField<T> {
     fn doubt_in(&self, room: Interval<T>) -> T {
         let [left, right] = [room.left, room.right].map(|x| self.joukowski(x)[0].abs());
         let (near, far) = (left.max(right), left.min(right));
-        let n = T::count(self.coefficients().len());
+        let n = T::count(self.q.len());
         // From afar, 32 coefficients leave less than rounding.
         let left_out = if near < T::of(0.25) { T::zero() } else { near.powf(n) };
         // A logarithm is no more than this.
@@ -116,7 +111,7 @@ impl<T: Real> ExteriorField<T> {
     /// Returns `∫ P/(x - s) ds` at a place outside the contact.
     pub fn slope(&self, x: T) -> T {
         let [u, root] = self.joukowski(x);
-        T::pi() * power_series(self.coefficients(), u) / (root * u.signum())
+        T::pi() * power_series(&self.q, u) / (root * u.signum())
     }
 
     /// Returns the load of the contact.

@@ -117,7 +117,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             step * step * on.half_width() >= T::of(8.0 * LEAST_DISTANCE) * rounding
         };
         for field in &mut fields.each {
-            let mut count = field.coefficients().len();
+            let mut count = field.q.len();
             while field.doubt > share * self.found.load.abs()
                 && count < MAX_POINTS
                 && is_apart(field.on, 2 * count)
@@ -138,7 +138,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// Adds to the uncertainty of a series what a corner just inside a limit does: the pressure
     /// falls there from that of a held limit, like a logarithm.
     fn doubt_at_corners(&self, field: &mut ExteriorField<T>) -> Result<(), ContactError<T>> {
-        let (on, count) = (field.on, T::count(field.coefficients().len()));
+        let (on, count) = (field.on, T::count(field.q.len()));
         // Place i lies (2 i + 1)² times as far from the limit as the first.
         let fourth = T::of(49.0 / 8.0) * (T::pi() / count).powi(2) * on.half_width();
         let corners = [self.gap.breakpoint_after(on.left), self.gap.breakpoint_before(on.right)];

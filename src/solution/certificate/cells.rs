@@ -12,7 +12,7 @@ use crate::quadrature::panels::{Panel, PanelSet};
 use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
 
 /// Largest difference of the two slopes, as a share of the largest slope, besides the noise.
-const MAX_DIFFERENCE: f64 = 1e-6;
+const MAX_DIFFERENCE: f64 = 2e-7;
 
 /// Half-length of a cell, as a share of the spacing, below which the cell is not compared.
 const LEAST_CELL: f64 = 1e-6;

@@ -10,11 +10,10 @@
 use super::cells::Cells;
 use super::{ContactState, Extremum, undecided};
 use crate::gap::Cost;
-use crate::numerics::chebyshev::Table;
+use crate::numerics::chebyshev::{Table, primitive, value_at};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels::{Panel, Several, System};
-use crate::solution::BLIND;
-use crate::solution::check::{above, below, extremes, integral, least, nearer, truncation_error};
+use crate::solution::check::{bounds, extremes, least, nearer, truncation_error};
 use crate::{ContactError, Interval, Real, Side};
 
 /// Number of nodes of a cell.
@@ -69,9 +68,9 @@ impl<'o, T: Real> OutsideOf<'o, T> {
     pub fn new(of: &'o Loaded<'o, T>, contact: usize, side: Side, falls: bool) -> Self {
         let ([height, y, pending], [worst, closest, falling]) = ([T::zero(); 3], [None; 3]);
         let (open, cells) = (false, 0);
-        let error = of.found.error.filter(|_| of.several.held()[contact][side]);
-        let half_width = of.several.contacts()[contact].half_width();
-        let blind = T::of(BLIND) * error.unwrap_or(T::zero()) * half_width;
+        let is_held = of.several.held()[contact][side];
+        let blind = of.found.blind(of.several.contacts()[contact]);
+        let blind = if is_held { blind } else { T::zero() };
         Self {
             of,
             contact,
@@ -148,19 +147,18 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         let length = panel.x[1] - panel.x[0];
         let rounding = T::of(16.0) * T::epsilon();
         *left_out += length * (panel.error + rounding * panel.series[0].abs());
-        let series = panel.coefficients();
         // A straight flank is as steep as in the contact.
         let [least, most] = self.of.slopes[self.contact];
         let slack = rounding * least.abs().max(most.abs());
+        let [below, above] = bounds(panel.coefficients());
         let growing = match self.side {
-            Side::Right => below(series) >= most - slack,
-            Side::Left => above(series) <= least + slack,
+            Side::Right => below >= most - slack,
+            Side::Left => above <= least + slack,
         };
         let [one, two] = panel.x.map(|x| self.distance(x));
         let [from, to] = [one.min(two).sqrt(), one.max(two).sqrt()];
         if growing && self.falls {
-            let sum = integral(series).iter().fold(T::zero(), |sum, &a| sum + a);
-            self.pending += self.sign() * sum * panel.half();
+            self.pending += self.sign() * panel.rise(panel.x[0], panel.x[1]);
             self.part_again();
             return Ok(());
         }
@@ -235,18 +233,18 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
                 continue;
             }
-            let mut heights = integral(rate);
-            heights[0] += self.height;
-            let lowest = below(&heights);
+            let heights = &mut primitive(rate)[..=NODES];
+            heights[0] = self.height - value_at(heights, -T::one());
+            let lowest = bounds(heights)[0];
             let known = lowest > allowed && self.closest.is_some_and(|than| than.value <= lowest);
             if known {
                 self.falling = None;
-            } else if below(rate) < T::zero() {
+            } else if bounds(rate)[0] < T::zero() {
                 // As fine as the tolerance needs, but no finer than rounding.
                 let rounding = heights.iter().fold(T::zero(), |sum, a| sum + a.abs());
                 let rounding = T::of(16.0) * T::epsilon() * rounding;
                 let enough = (T::of(1e-3) * allowed).max(rounding).max(T::of(1e-9) * lowest);
-                let [s, value] = least(&heights, enough);
+                let [s, value] = least(heights, enough);
                 let y = middle + s * reach;
                 let here = Extremum { x: self.edge() + sign * y * y, value };
                 if value < -(allowed + left_out) && y * y > self.blind {

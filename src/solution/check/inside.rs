@@ -7,7 +7,7 @@
 //! series on cells, which are halved until the coefficients show the sign; so the cells are graded
 //! towards the logarithms at the breakpoints.
 
-use super::series_bounds::{below, least, truncation_error};
+use super::series_bounds::{bounds, least, truncation_error};
 use super::{Closeness, Extremum, nearer};
 use crate::numerics::chebyshev::Table;
 use crate::{ContactError, Ends, Interval, Real};
@@ -127,7 +127,7 @@ impl<T: Real> Inside<'_, T> {
     fn sign<const N: usize>(&self, series: &[T; N], known: T) -> Sign<T> {
         let left_out = truncation_error(series);
         let size = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-        let bound = below(series) - left_out;
+        let bound = bounds(series)[0] - left_out;
         if bound > T::zero() && known <= bound {
             return Sign::Above(bound);
         }

@@ -7,22 +7,18 @@ use crate::quadrature::panels::Panel;
 /// Largest number of halves examined before the least value found is accepted.
 const MAX_HALVES: usize = 512;
 
-/// Returns a lower bound of the series.
-pub(in crate::solution) fn below<T: Real>(series: &[T]) -> T {
+/// Returns a lower and an upper bound of the series.
+pub(in crate::solution) fn bounds<T: Real>(series: &[T]) -> [T; 2] {
     let others = series[1..].iter().fold(T::zero(), |sum, a| sum + a.abs());
-    series[0] - others
-}
-
-/// Returns an upper bound of the series.
-pub(in crate::solution) fn above<T: Real>(series: &[T]) -> T {
-    series.iter().skip(1).fold(series[0], |sum, a| sum + a.abs())
+    [series[0] - others, series[0] + others]
 }
 
 /// Returns a lower and an upper bound of the slope on panels.
 pub(in crate::solution) fn extremes<T: Real>(panels: &[Panel<T>]) -> [T; 2] {
     let infinite = T::one() / T::zero();
     panels.iter().map(Panel::coefficients).fold([infinite, -infinite], |[least, most], series| {
-        [least.min(below(series)), most.max(above(series))]
+        let [below, above] = bounds(series);
+        [least.min(below), most.max(above)]
     })
 }
 
@@ -43,24 +39,11 @@ pub(in crate::solution) fn least<T: Real>(series: &[T], enough: T) -> [T; 2] {
         }
         looked += 1;
         let part = expand(series, [left, right]);
-        if looked < MAX_HALVES && below(&part) < best[1] - enough && middle > left {
+        if looked < MAX_HALVES && bounds(&part)[0] < best[1] - enough && middle > left {
             waiting.extend([[middle, right], [left, middle]]);
         }
     }
     best
-}
-
-/// Returns the coefficients of the integral from -1, one more than `series` has.
-pub(in crate::solution) fn integral<T: Real>(series: &[T]) -> Vec<T> {
-    let n = series.len();
-    let at = |k: usize| series.get(k).copied().unwrap_or(T::zero());
-    let mut sums = vec![T::zero(); n + 1];
-    for (k, sum) in sums.iter_mut().enumerate().skip(1) {
-        let before = if k == 1 { at(0) + at(0) } else { at(k - 1) };
-        *sum = (before - at(k + 1)) / T::count(2 * k);
-    }
-    sums[0] = -value_at(&sums, -T::one());
-    sums
 }
 
 /// Estimates the truncation error from the last coefficients.

@@ -5,7 +5,6 @@ use super::SignoriniCheck;
 use super::beside::{Beside, Verdict};
 use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
 use crate::quadrature::panels::Rises;
-use crate::solution::BLIND;
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{ContactError, Ends, Interval, Real, Side};
 
@@ -403,10 +402,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
         // A corner holds the limit in place of one just beyond it.
         let blind = |contact: Option<usize>, side: Side| {
-            let error = self.found.error.unwrap_or(T::zero());
             let held = contact
                 .filter(|&i| i < contacts.len() && !self.panels.free_of(i, self.found.free)[side]);
-            held.map_or(T::zero(), |i| T::of(BLIND) * error * contacts[i].half_width())
+            held.map_or(T::zero(), |i| self.found.blind(contacts[i]))
         };
         let blind = [blind(next.checked_sub(1), Side::Right), blind(Some(next), Side::Left)];
         let taken = fields.potential(edge);

@@ -102,12 +102,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             if pressure.partial_cmp(&pressure).is_none() {
                 return Err(SolveError::Overflow { interval }.into());
             }
-            return Ok(Some(ContactError::Solve(SolveError::Tension {
-                x,
-                pressure,
-                interval,
-                load,
-            })));
+            return Ok(Some(found.tension(x, pressure).into()));
         }
         // A contact from end to end leaves nothing outside.
         if !covers {
@@ -123,8 +118,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if let Cow::Owned(own) = panels {
             self.work.cost.heights += own.cost().evaluations;
         }
-        Ok(overlap
-            .map(|[x, gap]| ContactError::Solve(SolveError::Overlap { x, gap, interval, load })))
+        Ok(overlap.map(|[x, gap]| found.overlap(x, gap).into()))
     }
 
     /// Looks for narrow features next to the contacts found.
