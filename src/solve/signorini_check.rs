@@ -144,21 +144,19 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let corners = [self.gap.breakpoint_after(on.left), self.gap.breakpoint_before(on.right)];
         let (mut is_beside, mut unseen) = (false, T::zero());
         for (corner, side) in corners.into_iter().zip(Side::BOTH) {
-            let Some(corner) = corner else { continue };
-            let away = (corner - on[side]).abs();
-            if away > T::of(BESIDE) * on.half_width() {
-                continue;
-            }
-            let [jump, size] = self.gap.jump(corner);
-            if jump <= T::epsilon().sqrt() * size {
-                continue;
-            }
+            let away = |corner: T| (corner - on[side]).abs();
+            let is_near = |&corner: &T| away(corner) <= T::of(BESIDE) * on.half_width();
+            let bulges = |&corner: &T| {
+                let [jump, size] = self.gap.jump(corner);
+                jump > T::epsilon().sqrt() * size
+            };
+            let Some(corner) = corner.filter(is_near).filter(bulges) else { continue };
             is_beside = true;
-            if away < fourth {
+            if away(corner) < fourth {
                 let mut pressure = [T::zero()];
-                self.pressures(&[on[side] + (corner - on[side]) * T::of(2.0)], &mut pressure)?;
+                self.pressures(&[corner + (corner - on[side])], &mut pressure)?;
                 // About the load up to there, times the logarithm of the spacing over it.
-                unseen += T::of(16.0) * away * pressure[0].abs();
+                unseen += T::of(16.0) * away(corner) * pressure[0].abs();
             }
         }
         if is_beside {
