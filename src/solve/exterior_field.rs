@@ -26,6 +26,8 @@ const MOST_STRETCHES: usize = 64;
 #[derive(Clone)]
 pub(crate) struct ExteriorField<T> {
     pub on: Interval<T>,
+    /// First [places](Self::place), and the pressures there.
+    pub x: [T; POINTS],
     pub pressures: [T; POINTS],
     /// Coefficients q₀, q₁, ...
     pub q: Vec<T>,
@@ -36,26 +38,16 @@ pub(crate) struct ExteriorField<T> {
 }
 
 impl<T: Real> ExteriorField<T> {
-    /// Returns the places at which the pressure is needed: Chebyshev nodes of the contact.
-    pub fn places(on: Interval<T>) -> [T; POINTS] {
-        std::array::from_fn(|i| Self::place(on, i, POINTS))
-    }
-
-    /// Returns place i of `count` such places.
+    /// Returns place i of `count` at which the pressure is needed: Chebyshev nodes of the contact.
     pub fn place(on: Interval<T>, i: usize, count: usize) -> T {
         on.at_angle(T::pi() * (T::count(count - i) - T::of(0.5)) / T::count(count))
     }
 
-    /// Creates the series from the pressures at [`places`](Self::places).
-    pub fn new(
-        on: Interval<T>,
-        free: Ends<bool>,
-        x: &[T; POINTS],
-        pressures: &[T; POINTS],
-    ) -> Self {
+    /// Creates the series from the pressures at the first places.
+    pub fn new(on: Interval<T>, free: Ends<bool>, x: [T; POINTS], pressures: [T; POINTS]) -> Self {
         let (q, doubt) = (Vec::new(), T::zero());
-        let mut field = Self { on, pressures: *pressures, q, free, doubt };
-        field.refine(x, pressures.to_vec());
+        let mut field = Self { on, x, pressures, q, free, doubt };
+        field.refine(&x, pressures.to_vec());
         field
     }
 
@@ -258,9 +250,9 @@ mod tests {
     #[test]
     fn the_gap_beside_a_parabola() {
         let on = Interval { left: -0.3, right: 0.3 };
-        let x = ExteriorField::places(on);
+        let x = std::array::from_fn(|i| ExteriorField::place(on, i, POINTS));
         let pressures = x.map(|x: f64| (0.09 - x * x).sqrt() / PI);
-        let field = ExteriorField::new(on, Ends::both(true), &x, &pressures);
+        let field = ExteriorField::new(on, Ends::both(true), x, pressures);
         assert!((field.load() / 0.045 - 1.0).abs() < 1e-14);
         for x in [0.3001f64, 0.4, 1.0, 30.0, -0.31, -2.0] {
             let pushed = field.potential(x) - field.potential(0.3);

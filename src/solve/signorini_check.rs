@@ -90,11 +90,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
     pub fn fields(&self, fields: &mut ExteriorFields<T>) -> Result<(), ContactError<T>> {
         fields.each.clear();
         for (i, &on) in self.contacts.iter().enumerate() {
-            let x = ExteriorField::places(on);
+            let x = std::array::from_fn(|i| ExteriorField::place(on, i, POINTS));
             let mut pressures = [T::zero(); POINTS];
             self.pressures(&x, &mut pressures)?;
             let free = self.panels.free_of(i, self.found.free);
-            let mut field = ExteriorField::new(on, free, &x, &pressures);
+            let mut field = ExteriorField::new(on, free, x, pressures);
             self.doubt_at_corners(&mut field)?;
             fields.each.push(field);
         }
@@ -123,8 +123,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 && is_apart(field.on, 2 * count)
             {
                 (count, is_finer) = (2 * count, true);
-                let x = (0..count).map(|i| ExteriorField::place(field.on, i, count));
-                let x: Vec<T> = x.collect();
+                let place = |i| ExteriorField::place(field.on, i, count);
+                let x: Vec<T> = (0..count).map(place).collect();
                 let mut pressures = vec![T::zero(); count];
                 self.pressures(&x, &mut pressures)?;
                 field.refine(&x, pressures);
@@ -220,7 +220,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         field: &ExteriorField<T>,
         found: &mut Tensions<T>,
     ) -> Result<(), ContactError<T>> {
-        let (on, x) = (field.on, ExteriorField::places(field.on));
+        let on = field.on;
         let mean = field.load().abs() / on.half_width();
         // The uncertainty of a pressure is estimated afterwards.
         let allowed = ContactState::<T>::rounding()
@@ -229,16 +229,15 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let (pressures, closeness) =
             (&|x: &[T], out: &mut [T]| self.pressures(x, out), Closeness::OF_A_SOLVE);
         let inside = Inside { pressures, on, free, allowed, closeness };
-        found.meet(&x, &field.pressures, allowed);
+        found.meet(&field.x, &field.pressures, allowed);
         let drops: Vec<T> =
             self.panels.drops(contact).filter(|&x| !self.is_pressed([x; 2])).collect();
         inside.look_at(&drops, found)?;
         // A feature of the slope may be narrower than the distance of these places, but not than its
         // panel.
-        let faint = T::of(FAINT) * T::pi() / self.kappa * inside.least(&x, &field.pressures);
-        let uneven = self.panels.uneven(contact, |x| faint / inside.factor(x));
-        let mut uneven = uneven.filter(|&span| !self.is_pressed(span));
-        uneven.try_for_each(|span| inside.bound(span, found))
+        let faint = T::of(FAINT) * T::pi() / self.kappa * inside.least(&field.x, &field.pressures);
+        let uneven = self.panels.uneven(contact, |x| faint / inside.factor(x)).into_iter();
+        uneven.filter(|&span| !self.is_pressed(span)).try_for_each(|span| inside.bound(span, found))
     }
 
     /// Returns the nearest place with pressure to one without, among places each twice as far away
@@ -246,12 +245,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
     fn presses_from(&self, x: T, side: Side) -> Result<T, ContactError<T>> {
         let on = self.contacts.iter().find(|on| on.contains(x)).unwrap_or(&self.found.interval);
         let end = on[side];
-        let mut places = [x; HALVES];
-        let mut away = end - x;
-        for place in places.iter_mut().rev() {
-            away *= T::of(0.5);
-            *place = x + away;
-        }
+        let share = |i: usize| T::of(0.5).powi((HALVES - i) as i32);
+        let places: [T; HALVES] = std::array::from_fn(|i| x + (end - x) * share(i));
         let mut pressures = [T::zero(); HALVES];
         self.pressures(&places, &mut pressures)?;
         let mut both = places.iter().zip(&pressures);

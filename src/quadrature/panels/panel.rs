@@ -210,15 +210,11 @@ impl<T: Real> PanelIntegrator<T> {
 
     /// Lists the parts of a contact whose panels differ by more than allowed from one smooth series
     /// over it.
-    pub(crate) fn uneven<'p>(
-        &'p self,
-        contact: usize,
-        allowed: impl Fn(T) -> T + 'p,
-    ) -> impl Iterator<Item = [T; 2]> + 'p {
+    pub(crate) fn uneven(&self, contact: usize, allowed: impl Fn(T) -> T) -> Vec<[T; 2]> {
         let (PanelSet { panels, .. }, on) = self.contact(contact);
-        let is_same = move |_: &Panel<T>, missed: T, x| missed.abs() <= allowed(x);
+        let is_same = |_: &Panel<T>, missed: T, x| missed.abs() <= allowed(x);
         let (_, uneven) = across::<SMOOTH, T>(within(panels, on), on, is_same);
-        uneven.map(move |panel| [panel.x[0].max(on.left), panel.x[1].min(on.right)])
+        uneven.map(|panel| [panel.x[0].max(on.left), panel.x[1].min(on.right)]).collect()
     }
 
     /// Lists the rises of the gap from node to node of the panels of all contacts, before the

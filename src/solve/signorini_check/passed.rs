@@ -27,23 +27,21 @@ pub(in crate::solve) struct Passed<T> {
 /// Solution that has passed.
 #[derive(Clone, Debug)]
 struct Checked<T> {
-    /// F/κ and the tilt of the bodies; `None` before anything has passed.
-    under: Option<[T; 2]>,
-    /// Number of samples of the gap that it was found from.
-    samples: usize,
+    /// `None` before anything has passed.
+    on: Option<Under<T>>,
     contacts: Vec<Interval<T>>,
 }
 
 impl<T: Real> Passed<T> {
     pub fn new() -> Self {
-        let nothing = Checked { under: None, samples: 0, contacts: Vec::new() };
+        let nothing = Checked { on: None, contacts: Vec::new() };
         Self { heaviest: nothing.clone(), lightest: nothing }
     }
 
     /// Forgets both solutions, for other bodies. Keeps room for one contact.
     pub fn clear(&mut self) {
         for solution in [&mut self.heaviest, &mut self.lightest] {
-            solution.under = None;
+            solution.on = None;
             solution.contacts.clear();
             solution.contacts.reserve(1);
         }
@@ -51,9 +49,9 @@ impl<T: Real> Passed<T> {
 
     /// Returns the contacts under no less load, F/κ, at the same tilt; empty if none has passed.
     pub fn under_more(&self, [load, tilt]: [T; 2]) -> &[Interval<T>] {
-        let Checked { under, contacts, .. } = &self.heaviest;
-        let is_lighter = under.is_some_and(|[most, at]| load <= most && same(tilt, at));
-        if is_lighter { contacts } else { &[] }
+        let Checked { on, contacts } = &self.heaviest;
+        let is_less = |Under { under: [most, at], .. }| load <= most && same(tilt, at);
+        if on.is_some_and(is_less) { contacts } else { &[] }
     }
 
     /// Returns the contacts of a solution under no more load at the same tilt, from the same
@@ -76,25 +74,25 @@ impl<T: Real> Passed<T> {
 }
 
 /// Load, F/κ, with the tilt of the bodies, and the number of samples of the gap so far.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(in crate::solve) struct Under<T> {
     pub under: [T; 2],
     pub samples: usize,
 }
 
 impl<T: Real> Checked<T> {
-    fn set(&mut self, Under { under, samples }: Under<T>, contacts: &[Interval<T>]) {
-        (self.under, self.samples) = (Some(under), samples);
+    fn set(&mut self, on: Under<T>, contacts: &[Interval<T>]) {
+        self.on = Some(on);
         self.contacts.clear();
         self.contacts.extend_from_slice(contacts);
     }
 
-    fn is_inside(
-        &self,
-        Under { under: [load, tilt], samples }: Under<T>,
-        contacts: &[Interval<T>],
-    ) -> bool {
-        let is_lighter = self.under.is_some_and(|[least, at]| load >= least && same(tilt, at));
+    fn is_inside(&self, on: Under<T>, contacts: &[Interval<T>]) -> bool {
+        let ([load, tilt], samples) = (on.under, on.samples);
+        let is_more = |known: Under<T>| {
+            let [least, at] = known.under;
+            load >= least && same(tilt, at) && samples == known.samples
+        };
         let is_in_one = |own: &Interval<T>| {
             let on = contacts.get(contacts.partition_point(|on| on.right < own.centre()));
             on.is_some_and(|on| {
@@ -102,6 +100,6 @@ impl<T: Real> Checked<T> {
                 on.left <= own.left + apart && on.right >= own.right - apart
             })
         };
-        is_lighter && samples == self.samples && self.contacts.iter().all(is_in_one)
+        self.on.is_some_and(is_more) && self.contacts.iter().all(is_in_one)
     }
 }
