@@ -1,8 +1,10 @@
 //! Check that a solution of the equations is a contact: no tension inside, no overlap outside.
 //!
 //! Inside, a slope of the gap that rises on every panel is proof: P is an integral of the rate of
-//! g' with a kernel that is nowhere negative. Otherwise pressures are evaluated. Outside, the gap
-//! between the loaded bodies is evaluated where their heights are known.
+//! g' with a kernel that is nowhere negative. Otherwise the series of 32 pressures in each contact
+//! shows the sign, and where the slope is less smooth than they are, that of each panel, by the code
+//! of a certificate ([`Inside`]). Outside, the gap between the loaded bodies is evaluated where
+//! their heights are known.
 
 mod beside;
 mod outside;

@@ -239,7 +239,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let last = contacts.len() - 1;
         // The first flag: the gap is open somewhere after the last dip.
         let (mut is_parted, mut is_hidden) = (true, false);
-        let mut rate = [T::of(f64::NAN); 2];
         let load = fields.each.iter().fold(T::zero(), |sum, field| sum + field.load());
         let mut beside: Option<Beside<T>> = None;
         let mut next = 0;
@@ -263,7 +262,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             if between.is_some() && from.is_near(x) || from.is_blind(x) {
                 continue;
             }
-            let judged = self.judge(fields, look, &from, low, &mut rate, open);
+            let judged = self.judge(fields, look, &from, low, open);
             let Some((x, verdict)) = judged else { continue };
             if verdict == Verdict::Overlap {
                 let (found, is_open) = self.verified(fields, &from, x, cost)?;
@@ -292,7 +291,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
         look: &Survey<T>,
         from: &Beside<T>,
         LowPoint { x, height, between, doubt }: LowPoint<T>,
-        rate: &mut [T; 2],
         open: &mut Vec<[T; 2]>,
     ) -> Option<(T, Verdict)> {
         let hidden = doubt + from.hidden;
@@ -305,7 +303,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             return Some((x, verdict));
         };
-        let verdict = judged(self.floor(fields, [x, height], ends, rate));
+        let verdict = judged(self.floor(fields, [x, height], ends));
         if !matches!(verdict, Verdict::Overlap | Verdict::Hidden) {
             return Some((x, verdict));
         }
@@ -329,21 +327,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
 
     /// Returns a height at a place of a span that represents the lowest loaded gap in it. A
     /// potential is concave, and rises to both sides of the place no more than its tangent; the
-    /// loaded gap is as low as the crossing of its tangents at both ends. Keeps the rate at the
-    /// last end.
-    fn floor(
-        &self,
-        fields: &ExteriorFields<T>,
-        [x, height]: [T; 2],
-        ends: [[T; 3]; 2],
-        known: &mut [T; 2],
-    ) -> T {
+    /// loaded gap is as low as the crossing of its tangents at both ends.
+    fn floor(&self, fields: &ExteriorFields<T>, [x, height]: [T; 2], ends: [[T; 3]; 2]) -> T {
         let rate = self.rate(fields, x);
         let loaded = |[end, height, slope]: [T; 3]| {
-            if known[0] != end {
-                *known = [end, self.rate(fields, end)];
-            }
-            [end, height + rate * (x - end), slope - known[1]]
+            [end, height + rate * (x - end), slope - self.rate(fields, end)]
         };
         let [[left, before, falls], [right, after, rises]] = ends.map(loaded);
         let chord = (after - before) / (right - left);
