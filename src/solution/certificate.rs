@@ -11,7 +11,7 @@ mod balance;
 mod cells;
 mod outside;
 
-use super::check::{Closeness, Inside, Tensions, extremes, nearer};
+use super::check::{Closeness, Inside, Pressures, Tensions, extremes, nearer};
 use super::{ContactState, Solved};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::{Several, System, rises_over};
@@ -271,10 +271,7 @@ fn least_pressure<T: Real>(
 
 /// Returns the load of one of several contacts, to about a thousandth: a pressure may be infinite
 /// at kinks.
-fn borne<T: Real>(
-    pressures: &dyn Fn(&[T], &mut [T]) -> Result<(), ContactError<T>>,
-    on: Interval<T>,
-) -> Result<T, ContactError<T>> {
+fn borne<T: Real>(pressures: Pressures<'_, T>, on: Interval<T>) -> Result<T, ContactError<T>> {
     let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS);
     let x: Vec<T> = (0..POINTS).map(|i| on.at_angle(angle(i))).collect();
     let mut values = vec![T::zero(); POINTS];

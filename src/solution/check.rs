@@ -3,6 +3,7 @@
 mod inside;
 mod series_bounds;
 
+pub(super) use inside::Pressures;
 pub(crate) use inside::{Inside, Tensions};
 pub(super) use series_bounds::{bounds, extremes, least, truncation_error};
 

@@ -33,7 +33,7 @@ const LEAST_DISTANCE: f64 = 8.0;
 
 /// Number of places between a tension and the end of the contact at which the pressure is
 /// evaluated: enough to halve the distance down to rounding.
-const HALVES: usize = 52;
+const HALVES: i32 = 52;
 
 /// Slopes that leave the pressure as it is, as a share of those of a wave whose pressure would be
 /// the least one found: κ/π times its slope.
@@ -247,9 +247,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
     fn presses_from(&self, x: T, side: Side) -> Result<T, ContactError<T>> {
         let on = self.contacts.iter().find(|on| on.contains(x)).unwrap_or(&self.found.interval);
         let end = on[side];
-        let share = |i: usize| T::of(0.5).powi((HALVES - i) as i32);
-        let places: [T; HALVES] = std::array::from_fn(|i| x + (end - x) * share(i));
-        let mut pressures = [T::zero(); HALVES];
+        let share = |times: i32| T::of(0.5).powi(times);
+        let places: Vec<T> = (1..=HALVES).rev().map(|i| x + (end - x) * share(i)).collect();
+        let mut pressures = vec![T::zero(); places.len()];
         self.pressures(&places, &mut pressures)?;
         let mut both = places.iter().zip(&pressures);
         let first = both.find(|&(&place, &pressure)| place != x && pressure > T::zero());

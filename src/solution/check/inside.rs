@@ -17,6 +17,9 @@ const NODES: usize = 16;
 /// Largest number of cells in all.
 const MAX_CELLS: usize = 1 << 16;
 
+/// Pressures at places.
+pub(crate) type Pressures<'c, T> = &'c dyn Fn(&[T], &mut [T]) -> Result<(), ContactError<T>>;
+
 /// Nodes of a cell, and the pressures there.
 type Cell<T> = [[T; NODES]; 2];
 
@@ -31,7 +34,7 @@ pub(crate) struct Tensions<T> {
 
 /// Contact with known pressures.
 pub(crate) struct Inside<'c, T: Real> {
-    pub pressures: &'c dyn Fn(&[T], &mut [T]) -> Result<(), ContactError<T>>,
+    pub pressures: Pressures<'c, T>,
     pub on: Interval<T>,
     /// Flags: the limit is free.
     pub free: Ends<bool>,
