@@ -249,7 +249,7 @@ fn least_pressure<T: Real>(
         let free = several.held()[i].map(|held| !held);
         let (allowed, closeness) = (state.zero_tolerance() * mean, Closeness::OF_A_PROOF);
         let inside = Inside { pressures: &pressures, on, free, allowed, closeness };
-        let mut found = Tensions::below(None);
+        let mut found = Tensions::new();
         let joints: Vec<T> = gap.telling_breakpoints(on, -T::one(), MAX_JOINTS).collect();
         inside.look_at(&joints, &mut found)?;
         let mut left = on.left;

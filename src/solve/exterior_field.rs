@@ -29,8 +29,9 @@ pub(crate) struct ExteriorField<T> {
     /// First [places](Self::place), and the pressures there.
     pub x: [T; POINTS],
     pub pressures: [T; POINTS],
-    /// Coefficients q₀, q₁, ...
-    pub q: Vec<T>,
+    q: [T; POINTS],
+    /// Coefficients from more values in place of `q`, if any.
+    finer: Vec<T>,
     /// Flags: the pressure is zero at this limit.
     free: Ends<bool>,
     /// Uncertainty of the potential at the limits, due to the coefficients left out.
@@ -45,27 +46,30 @@ impl<T: Real> ExteriorField<T> {
 
     /// Creates the series from the pressures at the first places.
     pub fn new(on: Interval<T>, free: Ends<bool>, x: [T; POINTS], pressures: [T; POINTS]) -> Self {
-        let (q, doubt) = (Vec::new(), T::zero());
-        let mut field = Self { on, x, pressures, q, free, doubt };
-        field.refine(&x, pressures.to_vec());
-        field
+        let bounded: [T; POINTS] =
+            std::array::from_fn(|i| pressures[i] * on.chebyshev_weight(x[i]));
+        let q = Table::of(POINTS).coefficients(&bounded);
+        Self { on, x, pressures, q, finer: Vec::new(), free, doubt: tail(&q, free) }
     }
 
-    /// Computes the coefficients from the pressures at as many [places](Self::place).
+    /// Computes the coefficients from the pressures at more [places](Self::place).
     pub fn refine(&mut self, x: &[T], mut pressures: Vec<T>) {
         pressures.iter_mut().zip(x).for_each(|(p, &x)| *p *= self.on.chebyshev_weight(x));
-        self.q = coefficients(&pressures);
-        self.doubt = tail(&self.q, self.free);
-        if self.q.len() > POINTS {
-            self.doubt = self.doubt.max(peaked(&pressures));
-        }
+        self.finer = coefficients(&pressures);
+        self.doubt = tail(&self.finer, self.free).max(peaked(&pressures));
+    }
+
+    /// Returns the coefficients q₀, q₁, ...
+    pub fn coefficients(&self) -> &[T] {
+        if self.finer.is_empty() { &self.q } else { &self.finer }
     }
 
     /// Returns `∫ P ln|x - s| ds` at a place that is not inside the contact.
     pub fn potential(&self, x: T) -> T {
         let [u, _] = self.joukowski(x);
         let (mut sum, mut power) = (T::zero(), T::one());
-        for (n, &q) in self.q.iter().enumerate().skip(1) {
+        let all = self.coefficients();
+        for (n, &q) in all.iter().enumerate().skip(1) {
             power *= u;
             // From afar a contact is a line load.
             if power.abs() < T::epsilon() {
@@ -73,7 +77,7 @@ impl<T: Real> ExteriorField<T> {
             }
             sum += q * power / T::count(n);
         }
-        T::pi() * (self.q[0] * (T::of(0.5) * self.on.half_width() / u.abs()).ln() - sum)
+        T::pi() * (all[0] * (T::of(0.5) * self.on.half_width() / u.abs()).ln() - sum)
     }
 
     /// Returns u at a place that is not inside the contact, and `sqrt((x - a)(x + b))` there.
@@ -93,7 +97,7 @@ impl<T: Real> ExteriorField<T> {
     fn doubt_in(&self, room: Interval<T>) -> T {
         let [left, right] = [room.left, room.right].map(|x| self.joukowski(x)[0].abs());
         let (near, far) = (left.max(right), left.min(right));
-        let n = T::count(self.q.len());
+        let n = T::count(self.coefficients().len());
         // From afar, 32 coefficients leave less than rounding.
         let left_out = if near < T::of(0.25) { T::zero() } else { near.powf(n) };
         // A logarithm is no more than this.
@@ -103,7 +107,7 @@ impl<T: Real> ExteriorField<T> {
     /// Returns `∫ P/(x - s) ds` at a place outside the contact.
     pub fn slope(&self, x: T) -> T {
         let [u, root] = self.joukowski(x);
-        T::pi() * power_series(&self.q, u) / (root * u.signum())
+        T::pi() * power_series(self.coefficients(), u) / (root * u.signum())
     }
 
     /// Returns the load of the contact.

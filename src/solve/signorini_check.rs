@@ -59,15 +59,17 @@ pub(super) struct SignoriniCheck<'c, T: Real> {
     pub pressed: &'c [Interval<T>],
 }
 
-/// Spans of tension.
+/// Spans of tension, the places by which they were found, and the spans that were searched.
 #[derive(Clone)]
 pub(super) struct TensionSpans<T> {
     pub spans: Vec<Interval<T>>,
+    tensions: Tensions<T>,
+    uneven: Vec<[T; 2]>,
 }
 
-impl<T> TensionSpans<T> {
+impl<T: Real> TensionSpans<T> {
     pub fn new() -> Self {
-        Self { spans: Vec::new() }
+        Self { spans: Vec::new(), tensions: Tensions::new(), uneven: Vec::new() }
     }
 }
 
@@ -119,7 +121,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             step * step * on.half_width() >= T::of(8.0 * LEAST_DISTANCE) * rounding
         };
         for field in &mut fields.each {
-            let mut count = field.q.len();
+            let mut count = field.coefficients().len();
             while field.doubt > share * self.found.load.abs()
                 && count < MAX_POINTS
                 && is_apart(field.on, 2 * count)
@@ -140,7 +142,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// Adds to the uncertainty of a series what a corner just inside a limit does: the pressure
     /// falls there from that of a held limit, like a logarithm.
     fn doubt_at_corners(&self, field: &mut ExteriorField<T>) -> Result<(), ContactError<T>> {
-        let (on, count) = (field.on, T::count(field.q.len()));
+        let (on, count) = (field.on, T::count(field.coefficients().len()));
         // Place i lies (2 i + 1)² times as far from the limit as the first.
         let fourth = T::of(49.0 / 8.0) * (T::pi() / count).powi(2) * on.half_width();
         let corners = [self.gap.breakpoint_after(on.left), self.gap.breakpoint_before(on.right)];
@@ -174,7 +176,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     pub fn tension(
         &self,
         fields: &mut ExteriorFields<T>,
-        TensionSpans { spans: tension_spans }: &mut TensionSpans<T>,
+        TensionSpans { spans: tension_spans, tensions, uneven }: &mut TensionSpans<T>,
     ) -> Result<Option<[T; 2]>, ContactError<T>> {
         tension_spans.clear();
         let adhesive = self.found.adhesive != Ends::both(false);
@@ -186,11 +188,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
         }
         self.fields(fields)?;
         let (x, value) = (self.found.interval.left, T::zero());
-        let mut tensions = Tensions::below(Some(Extremum { x, value }));
+        tensions.clear(Extremum { x, value });
         for (i, field) in fields.each.iter().enumerate() {
-            self.look_into(i, field, &mut tensions)?;
+            self.look_into(i, field, tensions, uneven)?;
         }
-        let mut found = tensions.found;
+        let found = &mut tensions.found;
         found.retain(|place| !self.closed.iter().any(|closed| closed.contains(place.x)));
         found.sort_by(|one, other| by_size(one.value, other.value));
         let mut worst = None;
@@ -221,6 +223,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         contact: usize,
         field: &ExteriorField<T>,
         found: &mut Tensions<T>,
+        uneven: &mut Vec<[T; 2]>,
     ) -> Result<(), ContactError<T>> {
         let on = field.on;
         let mean = field.load().abs() / on.half_width();
@@ -232,14 +235,15 @@ impl<T: Real> SignoriniCheck<'_, T> {
             (&|x: &[T], out: &mut [T]| self.pressures(x, out), Closeness::OF_A_SOLVE);
         let inside = Inside { pressures, on, free, allowed, closeness };
         found.meet(&field.x, &field.pressures, allowed);
-        let drops: Vec<T> =
-            self.panels.drops(contact).filter(|&x| !self.is_pressed([x; 2])).collect();
-        inside.look_at(&drops, found)?;
+        let mut drops = self.panels.drops(contact).filter(|&x| !self.is_pressed([x; 2]));
+        drops.try_for_each(|x| inside.look_at(&[x], found))?;
         // A feature of the slope may be narrower than the distance of these places, but not than its
         // panel.
         let faint = T::of(FAINT) * T::pi() / self.kappa * inside.least(&field.x, &field.pressures);
-        let uneven = self.panels.uneven(contact, |x| faint / inside.factor(x)).into_iter();
-        uneven.filter(|&span| !self.is_pressed(span)).try_for_each(|span| inside.bound(span, found))
+        uneven.clear();
+        self.panels.uneven(contact, |x| faint / inside.factor(x), uneven);
+        let mut uneven = uneven.iter().filter(|&&span| !self.is_pressed(span));
+        uneven.try_for_each(|&span| inside.bound(span, found))
     }
 
     /// Returns the nearest place with pressure to one without, among places each twice as far away

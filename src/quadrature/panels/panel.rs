@@ -208,13 +208,13 @@ impl<T: Real> PanelIntegrator<T> {
         within(panels, on).windows(2).filter(falls).map(|pair| pair[0].x[1])
     }
 
-    /// Lists the parts of a contact whose panels differ by more than allowed from one smooth series
+    /// Adds the parts of a contact whose panels differ by more than allowed from one smooth series
     /// over it.
-    pub(crate) fn uneven(&self, contact: usize, allowed: impl Fn(T) -> T) -> Vec<[T; 2]> {
+    pub(crate) fn uneven(&self, contact: usize, allowed: impl Fn(T) -> T, to: &mut Vec<[T; 2]>) {
         let (PanelSet { panels, .. }, on) = self.contact(contact);
         let is_same = |_: &Panel<T>, missed: T, x| missed.abs() <= allowed(x);
         let (_, uneven) = across::<SMOOTH, T>(within(panels, on), on, is_same);
-        uneven.map(|panel| [panel.x[0].max(on.left), panel.x[1].min(on.right)]).collect()
+        to.extend(uneven.map(|panel| [panel.x[0].max(on.left), panel.x[1].min(on.right)]));
     }
 
     /// Lists the rises of the gap from node to node of the panels of all contacts, before the

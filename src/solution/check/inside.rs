@@ -24,12 +24,15 @@ pub(crate) type Pressures<'c, T> = &'c dyn Fn(&[T], &mut [T]) -> Result<(), Cont
 type Cell<T> = [[T; NODES]; 2];
 
 /// Results so far: places with tension, and the least ratio.
+#[derive(Clone)]
 pub(crate) struct Tensions<T> {
     pub found: Vec<Extremum<T>>,
     pub ratio: Option<Extremum<T>>,
     cells: usize,
     /// Place from which on there were too many cells.
     pub given_up: Option<T>,
+    /// Spans still to be bounded, each with the number of its halvings.
+    waiting: Vec<([T; 2], usize)>,
 }
 
 /// Contact with known pressures.
@@ -51,9 +54,15 @@ enum Sign<T> {
 }
 
 impl<T: Real> Tensions<T> {
-    /// Returns no places yet; a ratio counts if it is less than one that is known.
-    pub fn below(known: Option<Extremum<T>>) -> Self {
-        Self { found: Vec::new(), ratio: known, cells: 0, given_up: None }
+    pub fn new() -> Self {
+        let (found, waiting) = (Vec::new(), Vec::new());
+        Self { found, ratio: None, cells: 0, given_up: None, waiting }
+    }
+
+    /// Starts anew; a ratio counts if it is less than a known one.
+    pub fn clear(&mut self, known: Extremum<T>) {
+        self.found.clear();
+        (self.ratio, self.cells, self.given_up) = (Some(known), 0, None);
     }
 
     /// Returns the deepest tension; NaN if that was met first.
@@ -73,10 +82,12 @@ impl<T: Real> Tensions<T> {
 impl<T: Real> Inside<'_, T> {
     /// Looks at the pressures at places.
     pub fn look_at(&self, places: &[T], found: &mut Tensions<T>) -> Result<(), ContactError<T>> {
-        let mut pressures = vec![T::zero(); places.len()];
-        (self.pressures)(places, &mut pressures)?;
-        found.meet(places, &pressures, self.allowed);
-        Ok(())
+        places.chunks(NODES).try_for_each(|places| {
+            let pressures = &mut [T::zero(); NODES][..places.len()];
+            (self.pressures)(places, pressures)?;
+            found.meet(places, pressures, self.allowed);
+            Ok(())
+        })
     }
 
     /// Returns the least ratio of the pressure to that under a smooth body, or a positive bound of
@@ -91,8 +102,9 @@ impl<T: Real> Inside<'_, T> {
 
     /// Bounds this ratio on a span between two breakpoints.
     pub fn bound(&self, span: [T; 2], found: &mut Tensions<T>) -> Result<(), ContactError<T>> {
-        let mut waiting = vec![(span, 0)];
-        while let Some(([from, to], level)) = waiting.pop() {
+        found.waiting.clear();
+        found.waiting.push((span, 0));
+        while let Some(([from, to], level)) = found.waiting.pop() {
             found.cells += 1;
             if found.cells > MAX_CELLS {
                 found.given_up = found.given_up.or(Some(from));
@@ -118,7 +130,7 @@ impl<T: Real> Inside<'_, T> {
                 continue;
             }
             if level < self.closeness.levels && middle > from && middle < to {
-                waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
+                found.waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
             } else {
                 found.meet(&x, &pressures, self.allowed);
             }
@@ -197,7 +209,7 @@ mod tests {
                     Ok(())
                 };
                 let inside = Inside { pressures: &pressures, on, free, allowed: 1e-9, closeness };
-                let mut found = Tensions::below(None);
+                let mut found = Tensions::new();
                 inside.look_at(&[0.1], &mut found).unwrap();
                 inside.bound([-0.2, 0.1], &mut found).unwrap();
                 inside.bound([0.1, 0.2], &mut found).unwrap();
@@ -221,7 +233,7 @@ mod tests {
                 Ok(())
             };
             for closeness in [Closeness::OF_A_SOLVE, Closeness::OF_A_PROOF] {
-                let (free, mut found) = (Ends::both(true), Tensions::below(None));
+                let (free, mut found) = (Ends::both(true), Tensions::new());
                 let inside = Inside { pressures: &pressures, on, free, allowed: 1e-12, closeness };
                 let span = [-1.0, 1.0].map(|end: f64| end * (5.0 * width).min(1.0));
                 inside.bound(span, &mut found).unwrap();
