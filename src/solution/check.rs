@@ -21,8 +21,8 @@ pub(crate) struct Closeness {
 }
 
 impl Closeness {
-    /// Signs, in spans down to a 256th of a panel, in which 16 nodes are several times as close as any
-    /// two of the at most 32 of the panel.
+    /// Signs, in spans down to a 256th of a panel, in which 16 nodes are several times as close as
+    /// any two of the at most 32 of the panel.
     pub const OF_A_SOLVE: Self = Self { share: 1.0, levels: 8 };
 
     /// Values, down to rounding: 2⁻⁵² of a span.

@@ -222,10 +222,10 @@ fn peaked<T: Real>(values: &[T]) -> T {
     T::of(2.0) * T::pi() * most / T::count(values.len())
 }
 
-/// Returns the coefficients of a cosine series from its values by rising x, [`POINTS`] times a power
-/// of two. The even ones belong to half as many values, the means of those at θ and π - θ; so do the
-/// sums of two odd ones that follow each other, by the products of half their differences with
-/// 2 cos θ.
+/// Returns the coefficients of a cosine series from its values by rising x, [`POINTS`] times a
+/// power of two. The even ones belong to half as many values, the means of those at θ and π - θ; so
+/// do the sums of two odd ones that follow each other, by the products of half their differences
+/// with 2 cos θ.
 fn coefficients<T: Real>(values: &[T]) -> Vec<T> {
     if let Ok(values) = values.try_into() {
         return Table::of(POINTS).coefficients::<POINTS, T>(values).to_vec();

@@ -2,9 +2,9 @@
 //!
 //! Inside, a slope of the gap that rises on every panel is proof: P is an integral of the rate of
 //! g' with a kernel that is nowhere negative. Otherwise the series of 32 pressures in each contact
-//! shows the sign, and where the slope is less smooth than they are, that of each panel, by the code
-//! of a certificate ([`Inside`]). Outside, the gap between the loaded bodies is evaluated where
-//! their heights are known.
+//! shows the sign, and where the slope is less smooth than they are, that of each panel, by the
+//! code of a certificate ([`Inside`]). Outside, the gap between the loaded bodies is evaluated
+//! where their heights are known.
 
 mod beside;
 mod outside;
@@ -237,8 +237,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         found.meet(&field.x, &field.pressures, allowed);
         let mut drops = self.panels.drops(contact).filter(|&x| !self.is_pressed([x; 2]));
         drops.try_for_each(|x| inside.look_at(&[x], found))?;
-        // A feature of the slope may be narrower than the distance of these places, but not than its
-        // panel.
+        // A feature of the slope may be narrower than the distance of these places, but not than
+        // its panel.
         let faint = T::of(FAINT) * T::pi() / self.kappa * inside.least(&field.x, &field.pressures);
         uneven.clear();
         self.panels.uneven(contact, |x| faint / inside.factor(x), uneven);
