@@ -30,7 +30,7 @@ const LONGEST_CELL: f64 = 1.0 / 400.0;
 const WIDTHS: f64 = 4.0;
 
 /// Number of points at which the pressure of one of several contacts is summed up.
-const POINTS: usize = 512;
+const SUMMED: usize = 512;
 
 /// Largest number of breakpoints at which the pressure is taken, besides those where the slope
 /// jumps down.
@@ -272,13 +272,13 @@ fn least_pressure<T: Real>(
 /// Returns the load of one of several contacts, to about a thousandth: a pressure may be infinite
 /// at kinks.
 fn borne<T: Real>(pressures: Pressures<'_, T>, on: Interval<T>) -> Result<T, ContactError<T>> {
-    let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(POINTS);
-    let x: Vec<T> = (0..POINTS).map(|i| on.at_angle(angle(i))).collect();
-    let mut values = vec![T::zero(); POINTS];
+    let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(SUMMED);
+    let x: Vec<T> = (0..SUMMED).map(|i| on.at_angle(angle(i))).collect();
+    let mut values = vec![T::zero(); SUMMED];
     pressures(&x, &mut values)?;
     let finite = x.iter().zip(&values).filter(|(_, pressure)| pressure.is_finite());
     let sum = finite.fold(T::zero(), |sum, (&x, &p)| sum + p * on.chebyshev_weight(x));
-    Ok(T::pi() * sum / T::count(POINTS))
+    Ok(T::pi() * sum / T::count(SUMMED))
 }
 
 /// Returns the ends up to which bodies are followed: a million half-widths where they have no end.

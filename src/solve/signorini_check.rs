@@ -29,7 +29,7 @@ const MAX_DOUBTFUL: usize = 256;
 const MAX_POINTS: usize = 4096;
 
 /// Least distance of such a place from a limit, in units of rounding of the contact.
-const LEAST_DISTANCE: f64 = 8.0;
+const LEAST_FROM_LIMIT: f64 = 8.0;
 
 /// Number of places between a tension and the end of the contact at which the pressure is
 /// evaluated: enough to halve the distance down to rounding.
@@ -118,7 +118,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let is_apart = |on: Interval<T>, count: usize| {
             let rounding = T::epsilon() * on.left.abs().max(on.right.abs()).max(on.half_width());
             let step = T::pi() / T::count(count);
-            step * step * on.half_width() >= T::of(8.0 * LEAST_DISTANCE) * rounding
+            step * step * on.half_width() >= T::of(8.0 * LEAST_FROM_LIMIT) * rounding
         };
         for field in &mut fields.each {
             let mut count = field.coefficients().len();

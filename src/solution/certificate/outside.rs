@@ -17,7 +17,7 @@ use crate::solution::check::{bounds, extremes, least, nearer, truncation_error};
 use crate::{ContactError, Interval, Real, Side};
 
 /// Number of nodes of a cell.
-const NODES: usize = 24;
+const CELL_NODES: usize = 24;
 /// Largest number of halvings of a panel.
 const MAX_LEVELS: usize = 40;
 /// Largest number of cells on one side.
@@ -25,7 +25,7 @@ const MAX_CELLS: usize = 1 << 16;
 
 /// Truncation error from which on cells resolve nothing, as a share of the rise at the largest
 /// slope.
-const MAX_TRUNCATION: f64 = 1e-2;
+const MAX_OF_RISE: f64 = 1e-2;
 
 /// Contacts under load.
 pub(super) struct Loaded<'c, T: Real> {
@@ -127,7 +127,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             row.panels.reverse();
         }
         let (mut left_out, [least, most]) = (T::zero(), extremes(&row.panels));
-        let vague = T::of(MAX_TRUNCATION) * most.max(-least);
+        let vague = T::of(MAX_OF_RISE) * most.max(-least);
         for panel in &row.panels {
             self.take(panel, &mut left_out, cells.cost())?;
             if left_out > vague * self.distance(panel.x[0]).max(self.distance(panel.x[1])) {
@@ -201,7 +201,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         allowed: T,
         cost: Cost,
     ) -> Result<(), ContactError<T>> {
-        let (half, table, sign) = (T::of(0.5), Table::of(NODES), self.sign());
+        let (half, table, sign) = (T::of(0.5), Table::of(CELL_NODES), self.sign());
         // Rate of change of g: the rounding of x costs a part of it.
         let bends = panel.coefficients().iter().enumerate();
         let bend = bends.fold(T::zero(), |sum, (k, a)| sum + T::count(k) * a.abs()) / panel.half();
@@ -212,7 +212,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             if self.cells > MAX_CELLS {
                 return Err(undecided(self.edge() + sign * from * from, cost));
             }
-            let (mut values, mut terms) = ([T::zero(); NODES], T::zero());
+            let (mut values, mut terms) = ([T::zero(); CELL_NODES], T::zero());
             for (value, &z) in values.iter_mut().zip(&table.z) {
                 let y = middle + reach * T::of(z);
                 let distance = y * y;
@@ -233,7 +233,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
                 waiting.extend([([middle, to], level + 1), ([from, middle], level + 1)]);
                 continue;
             }
-            let heights = &mut primitive(rate)[..=NODES];
+            let heights = &mut primitive(rate)[..=CELL_NODES];
             heights[0] = self.height - value_at(heights, -T::one());
             let lowest = bounds(heights)[0];
             let known = lowest > allowed && self.closest.is_some_and(|than| than.value <= lowest);

@@ -5,7 +5,7 @@ use crate::numerics::chebyshev::{expand, value_at};
 use crate::quadrature::panels::Panel;
 
 /// Largest number of halves examined before the least value found is accepted.
-const MAX_HALVES: usize = 512;
+const MAX_EXAMINED: usize = 512;
 
 /// Returns a lower and an upper bound of the series.
 pub(in crate::solution) fn bounds<T: Real>(series: &[T]) -> [T; 2] {
@@ -39,7 +39,7 @@ pub(in crate::solution) fn least<T: Real>(series: &[T], enough: T) -> [T; 2] {
         }
         looked += 1;
         let part = expand(series, [left, right]);
-        if looked < MAX_HALVES && bounds(&part)[0] < best[1] - enough && middle > left {
+        if looked < MAX_EXAMINED && bounds(&part)[0] < best[1] - enough && middle > left {
             waiting.extend([[middle, right], [left, middle]]);
         }
     }

@@ -5,7 +5,7 @@ use crate::quadrature::panels::{PanelSet, Rises};
 use crate::{ContactError, Interval, Real};
 
 /// Halvings of the way in search of a step, down to about ε^(1/2) of it.
-const MAX_HALVES: usize = 26;
+const MAX_STEP_HALVES: usize = 26;
 
 /// Searches the way from the contacts to an overlap for a step of the heights that the slopes do
 /// not show.
@@ -33,7 +33,7 @@ pub(in crate::solve) fn step_of_heights<T: Real>(
     let mut place = |x: T| Some([x, sampler.height(gap, x).ok()?]);
     let mut ends = [place(left)?, place(right)?];
     let misses = |rises: Rises<T>| (rises.by_heights - rises.by_slopes).abs();
-    for _ in 0..MAX_HALVES {
+    for _ in 0..MAX_STEP_HALVES {
         let [from, to] = ends;
         let middle = place(T::of(0.5) * (from[0] + to[0]))?;
         let halves = [[from, middle], [middle, to]];
