@@ -10,13 +10,13 @@ fn column(material: Material<f64>, s: f64, z: f64, k: usize) -> [f64; 5] {
     let Material::Elastic { youngs_modulus, poisson_ratio: nu } = material else {
         panic!("a rigid material")
     };
-    let [x, dx, w, dw] = if k == 0 {
-        [1.0, s, s, 1.0]
+    // With the dilation `dw - x` over `1 - 2ν`, which has a limit.
+    let ([x, dx, w, dw], dilation) = if k == 0 {
+        ([1.0, s, s, 1.0], 0.0)
     } else {
-        [z, 1.0 + s * z, s * z - 3.0 + 4.0 * nu, s * (s * z - 2.0 + 4.0 * nu)]
+        ([z, 1.0 + s * z, s * z - 3.0 + 4.0 * nu, s * (s * z - 2.0 + 4.0 * nu)], -2.0 * nu * s)
     };
     let shear = youngs_modulus / (2.0 * (1.0 + nu));
-    let dilation = nu / (1.0 - 2.0 * nu) * (dw - x);
     [2.0 * shear * (dw + dilation), shear * (dx + w), x, w, 2.0 * shear * (dilation - x)]
         .map(|value| value * (s * z).exp())
 }
@@ -204,7 +204,10 @@ pub fn residual(
     period: Option<f64>,
     slope: impl Fn(f64) -> f64,
 ) -> f64 {
-    let nodes = 200;
+    // On a layer the pressure changes over its thickness.
+    let thinnest = layers.iter().map(|(_, layer)| layer.thickness).fold(f64::INFINITY, f64::min);
+    let half_width = solution.intervals().iter().map(Interval::half_width).fold(0.0, f64::max);
+    let nodes = 200 + 20 * (0.4 * half_width / thinnest) as usize;
     let loads = loads(solution, nodes);
     let excess = |omega: f64| -> f64 {
         layers.iter().map(|(share, layer)| share * (compliance(layer, omega) - 1.0)).sum()
@@ -245,7 +248,7 @@ fn wavenumbers(
     let Some(period) = period else {
         let finest = layers.iter().map(|(_, layer)| 0.01 / length(layer));
         let finest = finest.fold(f64::INFINITY, f64::min);
-        let widest = (0.05 / thinnest).min(0.2 / (hull.right - hull.left));
+        let widest = (0.05 / thinnest).min(0.3 / (hull.right - hull.left));
         return waves(loads, [finest, widest, end]).collect();
     };
     let step = 2.0 * PI / period;
