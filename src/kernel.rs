@@ -23,7 +23,7 @@ mod spread;
 mod table;
 
 pub(crate) use bend::Bend;
-pub(crate) use correction::{Correction, Kept, punch};
+pub(crate) use correction::{Correction, Given, Kept, pressed, punch};
 pub(crate) use layers::Layers;
 pub(crate) use periodic::Periodic;
 pub(crate) use spread::{Loads, Spread};
@@ -91,8 +91,6 @@ pub(crate) struct Kernel<'b, T: Real> {
     pub row: Option<Periodic<T>>,
     /// Flag: nothing of it is set by the user but layers and a period.
     pub is_of_bodies: bool,
-    /// Factor of both: less than 1 on the way to a solution.
-    pub share: T,
 }
 
 impl<T: Real> Kernel<'_, T> {
@@ -108,12 +106,12 @@ impl<T: Real> Kernel<'_, T> {
 
     /// Returns K(x, s).
     pub fn slope(&self, x: T, s: T) -> T {
-        self.share * self.parts().fold(T::zero(), |sum, part| sum + part.slope(x, s))
+        self.parts().fold(T::zero(), |sum, part| sum + part.slope(x, s))
     }
 
     /// Returns the integral of K by x.
     pub fn height(&self, x: T, s: T) -> T {
-        self.share * self.parts().fold(T::zero(), |sum, part| sum + part.height(x, s))
+        self.parts().fold(T::zero(), |sum, part| sum + part.height(x, s))
     }
 
     /// Takes the distance of the next period for contacts in an interval of the range at hand.
@@ -142,6 +140,12 @@ impl<T: Real> Kernel<'_, T> {
         distances.fold(T::one() / T::zero(), |least, distance| least.min(distance))
     }
 
+    /// Returns the numbers of [terms] on an interval.
+    pub fn terms(&self, on: Interval<T>) -> [usize; 3] {
+        let softness = self.compliance(T::frac_pi_2() / on.half_width());
+        terms(self.distance(), softness, on)
+    }
+
     /// Returns sums of K(x, s) (0) or of its integral by x (1) over loads at places s.
     fn sums<const N: usize>(&self, which: [usize; N], x: T, loads: &[[T; 2]]) -> [T; N] {
         let table = self.table.as_ref();
@@ -154,23 +158,27 @@ impl<T: Real> Kernel<'_, T> {
                 }
             }
         }
-        sums.map(|sum| self.share * sum)
+        sums
     }
 }
 
 /// Returns numbers of terms on an interval with the nearest singularity of the kernel at a distance
-/// c: of a pressure that is corrected, of r, and the most of any pressure that reach r.
+/// c and a compliance at its wavenumber: of a pressure that is corrected, of r, and the most of any
+/// pressure that reach r.
 ///
 /// r has singularities c above the ends of the interval, and its series converges with the root of
 /// L/c; so many terms leave 1e-15 of it for 2L/c from 0.1 to 90, and so few a correction of 1e-4 to
-/// 1e-6 (found by trial). Coefficients beyond the most meet only wavenumbers at which K - 1 is
-/// below rounding.
-pub(crate) fn terms<T: Real>(distance: T, on: Interval<T>) -> [usize; 3] {
+/// 1e-6 (found by trial). On a thin layer that is a share of what the kernel takes away, and more
+/// are needed for the same share of the compliance that is left: the error falls like
+/// `exp(-4 c n/2L)`. Coefficients beyond the most meet only wavenumbers at which K - 1 is below
+/// rounding.
+pub(crate) fn terms<T: Real>(distance: T, compliance: T, on: Interval<T>) -> [usize; 3] {
     let ratio = ratio(distance, on);
     let sum = |first: f64, by_root: f64, by_ratio: f64| {
         at_least(T::of(first) + T::of(by_root) * ratio.sqrt() + T::of(by_ratio) * ratio)
     };
-    let corrected = sum(8.0, 4.0, 2.2);
+    let softness: f64 = compliance.component(0).to_subset_unchecked();
+    let corrected = sum(8.0, 4.0, 2.2 + 0.25 * -softness.min(1.0).ln());
     [corrected, sum(14.0, 24.0, 0.0).max(corrected), sum(30.0, 0.0, 10.0)]
 }
 
@@ -186,7 +194,7 @@ fn ratio<T: Real>(distance: T, on: Interval<T>) -> T {
 }
 
 /// Returns the least number of terms that is not below a value.
-fn at_least<T: Real>(value: T) -> usize {
+pub(crate) fn at_least<T: Real>(value: T) -> usize {
     (0..MAX_TERMS).find(|&n| T::count(n) >= value).unwrap_or(MAX_TERMS)
 }
 

@@ -168,7 +168,7 @@ table! {
 }
 table! {
     SolveError, "", SOLVE, transparent: [];
-    Bending { residual, solves, share };
+    Bending { residual, solves };
     CompleteContact { load, complete };
     Cancelled { evaluations, last };
     OutsideBodies { x, range };

@@ -71,7 +71,7 @@ impl<'b, T: Real> Beside<'b, T> {
             (None, _) => None,
         };
         let is_of_bodies = self.formula.is_none() && self.compliance.is_none();
-        Ok(Some(Box::new(Kernel { table, formula, row, is_of_bodies, share: T::one() })))
+        Ok(Some(Box::new(Kernel { table, formula, row, is_of_bodies })))
     }
 }
 

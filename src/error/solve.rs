@@ -14,16 +14,14 @@ pub enum SolveError<T: Real> {
     /// The bend of the bodies by a layer, or another regular kernel, has not converged.
     #[error(
         "the bend of the bodies by their layer, or another kernel, has not converged in {solves} solves: \
-         Eq. (1) is met to {}, with {} of the load or of the kernel; if the contact would be wider than \
-         the bodies extend them, else lower the load", six(*residual), six(*share)
+         Eq. (1) is met to {}; if the contact would be wider than the bodies extend them, else lower the load",
+        six(*residual)
     )]
     Bending {
         /// Residual of Eq. (1), as a share of its largest part.
         residual: T,
         /// Number of solves.
         solves: usize,
-        /// Share of the load, or of the kernel, that was reached.
-        share: T,
     },
     /// The bodies of a row touch all over a period, or so nearly that the gap left is not solved.
     #[error(

@@ -3,8 +3,8 @@
 //! Over the contacts r and its integral are Chebyshev series on panels, each made when it is asked
 //! for; outside them they are summed directly.
 
+use super::Kernel;
 use super::spread::{Loads, Spread, places, series};
-use super::{Kernel, terms};
 use crate::numerics::chebyshev::{MAX_SIZE, value_at};
 use crate::{Ends, Interval, Real, Side};
 use std::sync::OnceLock;
@@ -65,7 +65,7 @@ impl<'b, T: Real> Bend<'b, T> {
     /// Returns the mean of `∫ r dx` of loads at places over an interval, with the weight
     /// `1/(π sqrt((x + b)(a - x)))`.
     pub fn mean_height(&self, loads: &[[T; 2]], on: Interval<T>) -> T {
-        let [_, count, _] = terms(self.kernel.distance(), on);
+        let [_, count, _] = self.kernel.terms(on);
         let heights = places(on, count).map(|[x, _]| self.kernel.sums([1], x, loads)[0]);
         heights.fold(T::zero(), |sum, height| sum + height) / T::count(count)
     }
@@ -126,8 +126,7 @@ impl<'b, T: Real> Bend<'b, T> {
     }
 
     fn made(&self, on: Interval<T>) -> Row<T> {
-        let terms =
-            if self.rows.len() == 1 { terms(self.kernel.distance(), on)[1] } else { MAX_SIZE };
+        let terms = if self.rows.len() == 1 { self.kernel.terms(on)[1] } else { MAX_SIZE };
         let values: Vec<T> =
             places(on, terms).map(|[x, _]| self.loads.slope(&self.kernel, x)).collect();
         let mut slope = series(&values);

@@ -12,13 +12,15 @@
 //! derivatives by them have the factors K_a and K_b, zero in the end. So the limits can stay, and
 //! the search converges quadratically. The correction need not be accurate: ρ is.
 //!
-//! `cos kθ/(π L sin θ)` has the Cauchy integral `-U_{k-1}/L` on its own contact; outside, with `z =
-//! (x - c)/L` and `|u| < 1` in `z = (u + 1/u)/2`, it has `uᵏ/(L sqrt(z² - 1))`, and the potential
-//! `-uᵏ/k`, or `ln(L/(2|u|))` for k = 0.
+//! The unknowns are the values of `Σ q_k cos kθ` at the nodes of a Gauss-Chebyshev rule, and
+//! Eq. (1) holds between them, where that rule is right for the principal value, too (Erdogan
+//! and Gupta, *Q. Appl. Math.* 29, 1972, 525). Outside a contact, with `z = (x - c)/L` and
+//! `|u| < 1` in `z = (u + 1/u)/2`, a pressure `cos kθ/(π L sin θ)` has the Cauchy integral
+//! `uᵏ/(L sqrt(z² - 1))`, and the potential `-uᵏ/k`, or `ln(L/(2|u|))` for k = 0.
 
+use super::Kernel;
 use super::bend::Bend;
 use super::spread::{Loads, Nodes, Spread};
-use super::{Kernel, terms};
 use crate::numerics::LinearSystem;
 use crate::{Interval, Real};
 
@@ -56,22 +58,23 @@ impl<T: Real> Correction<T> {
         let (mut places, mut largest, mut off) = (Vec::new(), T::zero(), T::zero());
         for spread in &spreads {
             let on = spread.on;
-            let [terms, ..] = terms(kernel.distance(), on);
-            let nodes = Nodes::new(on, terms);
-            let new: Vec<T> = nodes.x.iter().map(|&x| loads.slope(kernel, x)).collect();
+            let mut place = Place::new(on, kernel.terms(on)[0]);
+            let new: Vec<T> = place.between.iter().map(|&x| loads.slope(kernel, x)).collect();
             let old = |x: T| bend.map_or(T::zero(), |bend| bend.slope(x));
-            let rho: Vec<T> = new.iter().zip(&nodes.x).map(|(&new, &x)| new - old(x)).collect();
+            let rho = new.iter().zip(&place.between).map(|(&new, &x)| new - old(x));
+            place.rho = rho.collect();
             // A comparison loses NaN.
             let is_known = |(&x, &rho): (&T, &T)| (rho + loads.height(kernel, x)).is_finite();
-            if let Some((&x, _)) = nodes.x.iter().zip(&rho).find(|&at| !is_known(at)) {
+            let mut each = place.between.iter().zip(&place.rho);
+            if let Some((&x, _)) = each.find(|&at| !is_known(at)) {
                 return Err(x);
             }
             let size = |row: &[T]| row.iter().fold(T::zero(), |most, a| most.max(a.abs()));
             // The half-planes' part is about as large as the sum of the coefficients.
             let half_planes = spread.q.iter().fold(T::zero(), |sum, q| sum + q.abs());
             largest = largest.max(size(&new)).max(half_planes / on.half_width());
-            off = off.max(size(&rho));
-            places.push(Place { on, nodes, rho });
+            off = off.max(size(&place.rho));
+            places.push(place);
         }
         let residual = if largest > T::zero() { off / largest } else { off };
         let system = System { kernel, places, kept };
@@ -80,13 +83,10 @@ impl<T: Real> Correction<T> {
                 .map(|x| loads.height(kernel, x) - bend.map_or(T::zero(), |bend| bend.height(x)));
             to - from
         });
-        let Some(change) = system.solve(rises.collect(), T::zero()) else { return Ok(None) };
-        let mut at = 0;
-        for (spread, place) in spreads.iter_mut().zip(&system.places) {
-            let terms = place.nodes.len();
-            spread.q.resize(spread.q.len().max(terms), T::zero());
-            spread.q.iter_mut().zip(&change[at..at + terms]).for_each(|(q, &by)| *q += by);
-            at += terms;
+        let Some(change) = system.solve(rises.collect(), &[T::zero()]) else { return Ok(None) };
+        for (spread, change) in spreads.iter_mut().zip(change) {
+            spread.q.resize(spread.q.len().max(change.q.len()), T::zero());
+            spread.q.iter_mut().zip(change.q).for_each(|(q, by)| *q += by);
         }
         Ok(Some(Self { spreads, residual }))
     }
@@ -100,17 +100,43 @@ pub(crate) fn punch<T: Real>(
     is_rough: bool,
 ) -> Option<Vec<Spread<T>>> {
     let place = |&on: &Interval<T>| {
-        let [few, terms, _] = terms(kernel.distance(), on);
+        let [few, terms, _] = kernel.terms(on);
         let terms = if is_rough { few / 2 } else { terms };
-        Place { on, nodes: Nodes::new(on, terms), rho: vec![T::zero(); terms] }
+        Place::new(on, terms)
     };
     let places: Vec<Place<T>> = contacts.iter().map(place).collect();
     let system = System { kernel, places, kept: Kept::Load };
     let gaps = vec![T::zero(); contacts.len() - 1];
-    let mut q = system.solve(gaps, T::one())?.into_iter();
-    let spread =
-        |place: &Place<T>| Spread { on: place.on, q: q.by_ref().take(place.nodes.len()).collect() };
-    Some(system.places.iter().map(spread).collect())
+    system.solve(gaps, &[T::one()])
+}
+
+/// Gap of two bodies, times κ.
+pub(crate) struct Given<S, H> {
+    pub slope: S,
+    pub height: H,
+}
+
+/// Returns the pressures under which bodies meet Eq. (1) on given contacts, with singular edges,
+/// roughly; the load, or the load and its moment, are given. `None` if the system is singular.
+pub(crate) fn pressed<T: Real, E>(
+    kernel: &Kernel<'_, T>,
+    contacts: &[Interval<T>],
+    kept: Kept<T>,
+    load: &[T],
+    mut gap: Given<impl FnMut(T) -> Result<T, E>, impl FnMut(T) -> Result<T, E>>,
+) -> Result<Option<Vec<Spread<T>>>, E> {
+    let mut place = |&on: &Interval<T>| {
+        let mut place = Place::new(on, kernel.terms(on)[0]);
+        for (rho, &x) in place.rho.iter_mut().zip(&place.between) {
+            *rho = -(gap.slope)(x)?;
+        }
+        Ok(place)
+    };
+    let places: Result<_, E> = contacts.iter().map(&mut place).collect();
+    let system = System { kernel, places: places?, kept };
+    let mut rise = |[from, to]: [T; 2]| Ok((gap.height)(from)? - (gap.height)(to)?);
+    let rises: Result<_, E> = system.gaps().map(&mut rise).collect();
+    Ok(system.solve(rises?, load))
 }
 
 /// Contact in the system.
@@ -118,8 +144,17 @@ struct Place<T> {
     on: Interval<T>,
     /// As many nodes as coefficients are corrected.
     nodes: Nodes<T>,
-    /// ρ at the nodes.
+    /// Places between the nodes, and ρ there.
+    between: Vec<T>,
     rho: Vec<T>,
+}
+
+impl<T: Real> Place<T> {
+    fn new(on: Interval<T>, terms: usize) -> Self {
+        let cos = |i: usize| (T::pi() * (T::count(i) / T::count(terms))).cos();
+        let between = (1..terms).map(|i| on.centre() + on.half_width() * cos(i)).collect();
+        Self { on, nodes: Nodes::new(on, terms), between, rho: vec![T::zero(); terms - 1] }
+    }
 }
 
 struct System<'s, 'b, T: Real> {
@@ -134,110 +169,96 @@ impl<T: Real> System<'_, '_, T> {
         self.places.windows(2).map(|pair| [pair[0].on.right, pair[1].on.left])
     }
 
-    /// Solves for the changes of the coefficients, given `∫ ρ` over the gaps and the last
-    /// condition.
-    fn solve(&self, rises: Vec<T>, last: T) -> Option<Vec<T>> {
-        // By columns: each the left sides of all equations for one unknown.
-        let mut columns: Vec<Vec<T>> =
-            (0..self.places.len()).flat_map(|j| self.columns(j)).collect();
-        if let Kept::Moment(kappa) = self.kept {
-            columns.push(self.column_of_tilt(kappa));
-        }
-        let count = columns.len();
-        let rows: Vec<Vec<T>> =
-            (0..count).map(|row| columns.iter().map(|column| column[row]).collect()).collect();
-        let of = |place: &Place<T>| place.nodes.second_kind(&place.rho);
-        let mut right: Vec<T> = self.places.iter().flat_map(of).chain(rises).map(|a| -a).collect();
-        right.resize(count - 1, T::zero());
-        right.push(last);
+    /// Solves for the changes of the pressures, given `∫ ρ` over the gaps and the last conditions.
+    fn solve(&self, rises: Vec<T>, last: &[T]) -> Option<Vec<Spread<T>>> {
+        let rows = self.rows();
+        let rho = self.places.iter().flat_map(|place| place.rho.iter().copied());
+        let mut right: Vec<T> = rho.chain(rises).map(|a| -a).collect();
+        right.resize(rows.len() - last.len(), T::zero());
+        right.extend(last);
         let (mut system, mut change) = (LinearSystem::new(), Vec::new());
         if !system.factor(rows.iter().map(Vec::as_slice)) {
             return None;
         }
         system.solve(&right, &mut change);
-        Some(change)
+        let mut change = change.into_iter();
+        let spread = |Place { on, nodes, .. }: &Place<T>| Spread {
+            on: *on,
+            q: nodes.coefficients(change.by_ref().take(nodes.len())),
+        };
+        Some(self.places.iter().map(spread).collect())
     }
 
-    /// Returns the left sides for the pressures `cos kθ/(π L sin θ)` on one contact.
-    fn columns(&self, j: usize) -> Vec<Vec<T>> {
-        let Place { on, ref nodes, .. } = self.places[j];
-        let mut columns = vec![Vec::new(); nodes.len()];
+    /// Returns the left sides of all equations.
+    fn rows(&self) -> Vec<Vec<T>> {
+        let (zero, one, kernel) = (T::zero(), T::one(), self.kernel);
+        let mut rows = Vec::new();
         for (i, place) in self.places.iter().enumerate() {
-            // By targets: the field of each pressure there.
-            let field = |x: T| {
-                let kernel = nodes.means(nodes.x.iter().map(|&s| self.kernel.slope(x, s)));
-                let beside = (i != j).then(|| outside(on, x, nodes.len()));
-                let beside = beside.into_iter().flatten().map(|[cauchy, _]| cauchy);
-                sums(kernel, beside)
-            };
-            let fields: Vec<Vec<T>> = place.nodes.x.iter().map(|&x| field(x)).collect();
-            for (k, column) in columns.iter_mut().enumerate() {
-                let start = column.len();
-                let values: Vec<T> = fields.iter().map(|field| field[k]).collect();
-                column.extend(place.nodes.second_kind(&values));
-                if i == j && k > 0 {
-                    column[start + k - 1] -= on.half_width().recip();
-                }
-            }
+            rows.extend(place.between.iter().map(|&x| {
+                let own = |j: usize, s: T| if i == j { (x - s).recip() } else { zero };
+                let cauchy = |on| outside(on, x).map(|[cauchy, _]| cauchy);
+                let beside = |j: usize, on| (i != j).then(|| cauchy(on));
+                self.row(|j, s| kernel.slope(x, s) + own(j, s), beside, one)
+            }));
         }
-        let rises = self.gaps().map(|[from, to]| {
-            let rise = |&s: &T| self.kernel.height(to, s) - self.kernel.height(from, s);
-            let kernel = nodes.means(nodes.x.iter().map(rise));
-            let [from, to] = [from, to].map(|x| outside(on, x, nodes.len()));
-            sums(kernel, to.iter().zip(&from).map(|(to, from)| to[1] - from[1]))
-        });
-        let rises: Vec<Vec<T>> = rises.collect();
-        for (k, column) in columns.iter_mut().enumerate() {
-            column.extend(rises.iter().map(|rise| rise[k]));
-            column.extend(self.conditions(on, j, k));
-        }
-        columns
-    }
-
-    /// Returns the left sides of the conditions on the whole.
-    fn conditions(&self, on: Interval<T>, j: usize, k: usize) -> Vec<T> {
-        let (zero, one) = (T::zero(), T::one());
-        let load = if k == 0 { one } else { zero };
+        rows.extend(self.gaps().map(|[from, to]| {
+            let rise = |_, s: T| kernel.height(to, s) - kernel.height(from, s);
+            let potential =
+                |on| outside(on, to).zip(outside(on, from)).map(|(to, from)| to[1] - from[1]);
+            self.row(rise, |_, on| Some(potential(on)), to - from)
+        }));
+        let none = |_: usize, _: Interval<T>| None::<std::iter::Empty<T>>;
         match self.kept {
-            Kept::Load => vec![load],
+            Kept::Load => rows.push(self.row(|_, _| one, none, zero)),
             Kept::Moment(_) => {
-                let arm = match k {
-                    0 => on.centre(),
-                    1 => T::of(0.5) * on.half_width(),
-                    _ => zero,
-                };
-                vec![load, arm]
+                rows.push(self.row(|_, _| one, none, zero));
+                rows.push(self.row(|_, s| s, none, zero));
             }
             Kept::Width => {
-                let right = if j + 1 == self.places.len() { one } else { zero };
-                let left = if k.is_multiple_of(2) { one } else { -one };
-                vec![right + if j == 0 { left } else { zero }]
+                let last = self.places.len() - 1;
+                let left = move |k: usize| if k.is_multiple_of(2) { one } else { -one };
+                let strengths = |j: usize, _| {
+                    let of = move |on: bool, value: T| if on { value } else { zero };
+                    Some((0..).map(move |k| of(j == 0, left(k)) + of(j == last, one)))
+                };
+                rows.push(self.row(|_, _| zero, strengths, zero));
             }
-            Kept::Pressure(x) if on.contains(x) => vec![(T::count(k) * on.angle(x)).cos()],
-            Kept::Pressure(_) => vec![zero],
+            Kept::Pressure(x) => {
+                let at = |on: Interval<T>| (0..).map(move |k| (T::count(k) * on.angle(x)).cos());
+                let pressure = |_, on: Interval<T>| on.contains(x).then(|| at(on));
+                rows.push(self.row(|_, _| zero, pressure, zero));
+            }
         }
+        rows
     }
 
-    fn column_of_tilt(&self, kappa: T) -> Vec<T> {
-        let mut column = Vec::new();
-        for place in &self.places {
-            column.extend(place.nodes.second_kind(&vec![-kappa; place.nodes.len()]));
+    /// Returns a row: the integral of a function of the contact and of s times the pressures, and
+    /// of what is known for each coefficient on a contact; and the effect of a tilt, as a multiple
+    /// of -κ.
+    fn row<I: Iterator<Item = T>>(
+        &self,
+        weight: impl Fn(usize, T) -> T,
+        terms: impl Fn(usize, Interval<T>) -> Option<I>,
+        tilt: T,
+    ) -> Vec<T> {
+        let mut row = Vec::new();
+        for (j, Place { on, nodes, .. }) in self.places.iter().enumerate() {
+            let start = row.len();
+            row.extend(nodes.x.iter().map(|&s| weight(j, s) / T::count(nodes.len())));
+            if let Some(terms) = terms(j, *on) {
+                nodes.add_terms(terms, &mut row[start..]);
+            }
         }
-        column.extend(self.gaps().map(|[from, to]| -kappa * (to - from)));
-        column.resize(column.len() + 2, T::zero());
-        column
+        if let Kept::Moment(kappa) = self.kept {
+            row.push(-kappa * tilt);
+        }
+        row
     }
-}
-
-/// Adds the second of two rows to the first; it may be empty.
-fn sums<T: Real>(mut row: Vec<T>, other: impl Iterator<Item = T>) -> Vec<T> {
-    row.iter_mut().zip(other).for_each(|(sum, value)| *sum += value);
-    row
 }
 
 /// Returns the Cauchy integrals and the potentials of `cos kθ/(π L sin θ)` at x, outside the
 /// interval or at its ends, for each k.
-fn outside<T: Real>(on: Interval<T>, x: T, count: usize) -> Vec<[T; 2]> {
+fn outside<T: Real>(on: Interval<T>, x: T) -> impl Iterator<Item = [T; 2]> {
     let (half_width, one) = (on.half_width(), T::one());
     // |z| - 1: zero at a limit, or the root of its rounding would count.
     let beside = (x - on.right).max(on.left - x).max(T::zero()) / half_width;
@@ -245,15 +266,12 @@ fn outside<T: Real>(on: Interval<T>, x: T, count: usize) -> Vec<[T; 2]> {
     let sign = if x < on.centre() { -one } else { one };
     let u = sign / (one + beside + root);
     let scale = sign / (half_width * root);
-    let mut power = one;
-    let term = |k: usize| {
+    let powers = std::iter::successors(Some(one), move |&power| Some(power * u));
+    powers.enumerate().map(move |(k, power)| {
         let potential = match k {
             0 => (half_width / (u.abs() + u.abs())).ln(),
             _ => -power / T::count(k),
         };
-        let term = [scale * power, potential];
-        power *= u;
-        term
-    };
-    (0..count).map(term).collect()
+        [scale * power, potential]
+    })
 }

@@ -2,6 +2,7 @@
 
 use super::Kernel;
 use crate::numerics::chebyshev::value_at;
+use crate::numerics::dot;
 use crate::{Ends, Interval, Real};
 
 /// Pressure in one interval, `P = Σ q_k cos kθ/(π L sin θ)` with `x = c + L cos θ`.
@@ -85,21 +86,23 @@ impl<T: Real> Nodes<T> {
         self.x.len()
     }
 
-    /// Returns the means of values at the nodes times `cos kθ`, for each k.
-    pub fn means(&self, values: impl Iterator<Item = T>) -> Vec<T> {
+    /// Returns the coefficients of `Σ q_k cos kθ`, given its values at the nodes.
+    pub fn coefficients(&self, values: impl Iterator<Item = T>) -> Vec<T> {
         let mut sums = vec![T::zero(); self.len()];
         for (value, shares) in values.zip(self.shares.chunks(self.len())) {
             sums.iter_mut().zip(shares).for_each(|(sum, &share)| *sum += value * share);
         }
+        sums[1..].iter_mut().for_each(|q| *q += *q);
         sums
     }
 
-    /// Returns the coefficients of `U_0` to `U_{n-2}` of a polynomial, given its values.
-    pub fn second_kind(&self, values: &[T]) -> impl Iterator<Item = T> + use<T> {
-        let means = self.means(values.iter().copied());
-        // T_n is zero at the nodes.
-        let after = means.clone().into_iter().skip(2).chain([T::zero()]);
-        means.into_iter().zip(after).map(|(before, after)| before - after)
+    /// Adds a sum of multiples of the coefficients to a row for the values at the nodes.
+    pub fn add_terms(&self, terms: impl Iterator<Item = T>, row: &mut [T]) {
+        let twice = |(k, term): (usize, T)| if k == 0 { term } else { term + term };
+        let terms: Vec<T> = terms.take(self.len()).enumerate().map(twice).collect();
+        for (value, shares) in row.iter_mut().zip(self.shares.chunks(self.len())) {
+            *value += dot(&terms, shares);
+        }
     }
 }
 

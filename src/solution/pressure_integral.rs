@@ -144,7 +144,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
     /// at a distance.
     pub fn spreads(&self, distance: T) -> Result<Vec<Spread<T>>, ContactError<T>> {
         let spread = |(i, &One { on, .. }): (usize, &One<T>)| {
-            let [_, some, most] = terms(distance, on);
+            let [_, some, most] = terms(distance, T::one(), on);
             Ok(Spread { on, q: self.coefficients(i, [some, most])? })
         };
         self.contacts.iter().enumerate().map(spread).collect()

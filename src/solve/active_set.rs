@@ -22,6 +22,7 @@ mod forces;
 mod marks;
 mod potential;
 
+use crate::kernel::Kernel;
 use crate::numerics::dot;
 use crate::{ContactError, Ends, Interval, Real};
 use forces::{line, sum};
@@ -46,6 +47,11 @@ const CELLS_OF_A_RUN: usize = 4;
 /// thirds of `κ h(L)/F`, which is one.
 const MEAN_DEPTH: f64 = 2.0 / 3.0;
 
+/// Width of the cells in a contact, by the distance of the nearest singularity of a regular kernel,
+/// and the number of cells of this width that are too many.
+pub(super) const LENGTH: f64 = 0.3;
+const MAX_OF_KERNEL: usize = 500;
+
 /// Updates of the set of loaded cells before the search is given up.
 const MAX_CHANGES: usize = 400;
 
@@ -56,7 +62,7 @@ const MAX_IN_VAIN: usize = 4;
 const MAX_WORK: usize = 40_000_000;
 
 /// Two bodies and a load.
-pub(super) struct Scene<'s, T> {
+pub(super) struct Scene<'s, T: Real> {
     pub kappa: T,
     pub load: T,
     /// Place where the load acts, if the bodies turn.
@@ -69,17 +75,29 @@ pub(super) struct Scene<'s, T> {
     pub known: &'s [[T; 2]],
     /// Last contacts; may be empty.
     pub start: &'s [Interval<T>],
+    /// Regular kernel, if any.
+    pub kernel: Option<&'s Kernel<'s, T>>,
 }
 
 /// Contacts, to some per cent of each width.
 #[derive(Clone, Debug)]
-pub(super) struct Coarse<T> {
+pub(super) struct Coarse<T: Real> {
     /// Contacts, from left to right.
     pub intervals: Vec<Interval<T>>,
     /// Angle by which body 2 is turned counter-clockwise.
     pub tilt: T,
+    /// Largest pressure.
+    pub peak: T,
     /// Flags: the contact reaches this end of the range.
     pub reaches: Ends<bool>,
+}
+
+impl<T: Real> Coarse<T> {
+    /// Returns the interval from the first contact, of at least one, to the last.
+    pub fn hull(&self) -> Interval<T> {
+        let last = self.intervals.len() - 1;
+        Interval { left: self.intervals[0].left, right: self.intervals[last].right }
+    }
 }
 
 /// Reason why no contact is found.
@@ -136,7 +154,7 @@ impl<T: Real> Cell<T> {
     }
 }
 
-struct ActiveSet<T> {
+struct ActiveSet<'s, T: Real> {
     cells: Vec<Cell<T>>,
     range: [T; 2],
     kappa: T,
@@ -144,10 +162,12 @@ struct ActiveSet<T> {
     at: Option<T>,
     /// Least number of loaded cells in a run.
     cells_of_a_run: usize,
+    /// Width of the cells in a contact that resolves a regular kernel.
+    length: Option<T>,
     /// Rise κ h/F above the lowest cell, and the potential.
     rise: Vec<T>,
     potential: Vec<T>,
-    matrix: Potential<T>,
+    matrix: Potential<'s, T>,
     /// Sum of rise and potential in loaded cells: a level, and a slope about the place of the load.
     level: T,
     slope: T,
@@ -158,7 +178,7 @@ struct ActiveSet<T> {
     work: usize,
 }
 
-impl<T: Real> ActiveSet<T> {
+impl<'s, T: Real> ActiveSet<'s, T> {
     /// Loads the cells in which the bodies touch, cut as finely as needed to resolve the contacts.
     fn settle(&mut self, scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<(), NotFound<T>> {
         self.take_up(scene.start, height)?;
@@ -172,8 +192,8 @@ impl<T: Real> ActiveSet<T> {
         if self.changed { self.converge() } else { Ok(()) }
     }
 
-    fn new(scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
-        let Scene { kappa, load, at, range, cells, .. } = *scene;
+    fn new(scene: &Scene<'s, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
+        let Scene { kappa, load, at, range, cells, kernel, .. } = *scene;
         let [kappa, load] = [kappa, load].map(|value| value.component(0));
         let at = at.map(|at| at.component(0));
         let range = range.map(|end| end.component(0));
@@ -194,7 +214,8 @@ impl<T: Real> ActiveSet<T> {
             cells_of_a_run: CELLS_OF_A_RUN * (cells / FIRST_CELLS).max(1),
             rise: Vec::new(),
             potential: Vec::new(),
-            matrix: Potential::new(),
+            matrix: Potential::new(kernel, range),
+            length: kernel.map(|kernel| T::of(LENGTH) * kernel.distance()),
             level: T::zero(),
             slope: T::zero(),
             changed: true,

@@ -8,10 +8,10 @@
 //! ```
 //!
 //! Each turn about squares ρ. A contact in one interval is checked at the beginning and at the end.
-//! On a thin layer the contact of half-planes, the first one, may be wider than the bodies: then
-//! the load is smaller in the beginning. On a base far softer than its coating the first one is far
-//! too narrow: then the kernel is.
+//! The contact of half-planes comes first. Where it fits no bodies, or the next step is none, the
+//! search begins with cells that have the whole kernel.
 
+mod cells;
 mod row;
 
 use super::by_load::{self, ByApproach, HalfWidth, Peak};
@@ -19,7 +19,8 @@ use super::{Contact, Control, Work, find_under};
 use crate::gap::Gap;
 use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
 use crate::solution::{ContactState, Integrals, Report, Solved};
-use crate::{ContactError, Edge, Ends, InputError, Interval, Real, SolveError};
+use crate::{ContactError, Edge, Ends, InputError, Interval, Real, Side, SolveError};
+use cells::line_of_load;
 use std::sync::Arc;
 
 /// Contacts solved before the search is given up.
@@ -37,20 +38,8 @@ const STALLED: f64 = 0.2;
 /// Least part of a correction that is tried.
 const LEAST_PART: f64 = 1.0 / 64.0;
 
-/// Least share of the load from which a search starts.
-const LEAST_SHARE: f64 = 1e-9;
-
 /// Largest half-width of the contacts by the thickness of a layer: the cost grows with the square.
 const THINNEST: f64 = 100.0;
-
-/// ρ, as a share of Eq. (1), at which a smaller load gives way to a larger one, the first factor
-/// between the two, and the least.
-const NEAR: f64 = 0.05;
-const GROWTH: f64 = 2.0;
-const LEAST_GROWTH: f64 = 1.01;
-
-/// First share of a kernel that is too strong to begin with.
-const FIRST_KERNEL: f64 = 1.0 / 64.0;
 
 /// Factor by which a contact may be too wide on the way.
 const MOST_TIMES: f64 = 2.0;
@@ -104,9 +93,7 @@ pub(super) fn find<'b, T: Real>(
     let spreads = warm(std::mem::take(&mut work.workspace.spreads), control);
     let (before, one) = (T::one() / T::zero(), T::one());
     let [from, target] = [Vec::new(), Vec::new()];
-    let (part, share, reached, growth, fault) = (one, one, T::zero(), T::of(GROWTH), None);
     let gap = contact.gap.clone();
-    let along = Along::Load;
     let found = Bending {
         contact,
         gap,
@@ -117,13 +104,11 @@ pub(super) fn find<'b, T: Real>(
         spreads,
         from,
         target,
-        part,
+        part: one,
         before,
-        along,
-        share,
-        reached,
-        growth,
-        fault,
+        fault: None,
+        reaches: None,
+        has_cells: false,
         is_checked: true,
         has_converged: false,
         may_be_one: true,
@@ -172,12 +157,7 @@ fn warm<T: Real>(spreads: Vec<Spread<T>>, control: Control<T>) -> Vec<Spread<T>>
 
 /// Returns the load of a control that gives one.
 fn load<T: Real>(control: Control<T>) -> Option<T> {
-    match control {
-        Control::Load(load)
-        | Control::Moment { load, .. }
-        | Control::CentreOfPressure { load, .. } => Some(load),
-        _ => None,
-    }
+    line_of_load(control).map(|(load, _)| load)
 }
 
 struct Bending<'s, 'w, 'b, T: Real> {
@@ -186,7 +166,6 @@ struct Bending<'s, 'w, 'b, T: Real> {
     gap: Gap<'b, T>,
     /// The same with the bend of the last solve, if it is to be solved once more.
     bent: Option<Gap<'b, T>>,
-    /// The kernel, times its share.
     kernel: Kernel<'b, T>,
     control: Control<T>,
     work: &'s mut Work<'w, T>,
@@ -199,16 +178,14 @@ struct Bending<'s, 'w, 'b, T: Real> {
     part: T,
     /// ρ from which this step began.
     before: T,
-    /// Share of the load or of the kernel, the share reached before, and the factor of the next
-    /// step.
-    along: Along,
-    share: T,
-    reached: T,
-    growth: T,
-    /// Error of the first solve, on the way to the whole load, or of the last one.
+    /// Error of the last solve that failed.
     fault: Option<ContactError<T>>,
-    /// Flags: the next solve may have several contacts; the next one is the last, a check with
-    /// features; contacts that are one interval when they are first checked are sought as one.
+    /// End of the bodies that cells reach.
+    reaches: Option<Side>,
+    /// Flags: the start from cells has been tried; the next solve may have several contacts; the
+    /// next one is the last, a check with features; contacts that are one interval when they are
+    /// first checked are sought as one.
+    has_cells: bool,
     is_checked: bool,
     has_converged: bool,
     may_be_one: bool,
@@ -221,13 +198,6 @@ fn hull<T: Real>(spreads: &[Spread<T>]) -> Option<Interval<T>> {
         right: one.right.max(on.right),
     };
     spreads.iter().map(|spread| spread.on).reduce(hull)
-}
-
-/// What grows on the way to the whole problem.
-#[derive(Clone, Copy, PartialEq)]
-enum Along {
-    Load,
-    Kernel,
 }
 
 /// A solve on the bent bodies.
@@ -259,13 +229,13 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 }
             };
             let Some(Correction { spreads, residual }) = self.correct(&solved)? else { break };
-            let is_whole = self.share >= T::one();
             if self.has_converged && spreads.len() != self.target.len() {
                 // The ρ that was reached is that of other contacts.
                 self.before = T::one() / T::zero();
             }
             let is_least = self.is_least(residual, solved.found.error);
-            if is_least && is_whole && left == 0 {
+            if is_least && left == 0 {
+                self.check_width(solved.found.interval, 1.0)?;
                 if solved.is_checked {
                     let error = solved.found.error.map(|error| error + residual);
                     self.work.workspace.spreads = spreads;
@@ -279,21 +249,14 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             left = if is_least { left.saturating_sub(1) } else { left };
             let falls = residual <= (T::one() - T::of(0.25) * self.part) * self.before;
             if !falls && !is_least {
-                self.is_checked |= self.less()?;
+                self.less()?;
                 continue;
-            }
-            // A larger load does not make it narrower.
-            if residual < T::of(NEAR) {
-                self.check_width(&solved.found, T::one())?;
             }
             // A check may have found other contacts than the one that was sought.
             self.is_checked = self.has_converged || !self.may_be_one || spreads.len() > 1;
             self.step_to(spreads, residual)?;
-            if !is_whole && residual < T::of(NEAR) {
-                self.more();
-            }
         }
-        Err(self.not_converged())
+        Err(self.not_found())
     }
 
     /// Tells whether no other step is worth its cost: the residual is that of rounding, or far
@@ -306,30 +269,41 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
 
     /// Goes on from a solve that failed.
     fn recover(&mut self, error: ContactError<T>) -> Result<(), ContactError<T>> {
+        if ends(&error) {
+            return Err(error);
+        }
         self.is_checked = true;
-        if self.has_converged && self.may_be_one && !ends(&error) {
+        if self.has_converged && self.may_be_one {
             // One interval meets the equation, but is no contact.
             (self.has_converged, self.may_be_one) = (false, false);
-            self.restart();
+            self.restart(self.begin());
             return Ok(());
         }
-        self.retreat(error)
+        self.fault = Some(error);
+        self.less()
     }
 
-    fn not_converged(&mut self) -> ContactError<T> {
-        let (residual, share) = (self.before, self.share);
-        match self.fault.take() {
-            Some(fault) if self.fills(&fault) => self.complete().unwrap_or_else(|error| error),
-            _ => SolveError::Bending { residual, solves: MAX_SOLVES, share }.into(),
-        }
+    /// Returns the error of the search.
+    fn not_found(&mut self) -> ContactError<T> {
+        let error = match (self.fault.take(), self.reaches) {
+            (Some(fault), _) if self.fills(&fault) => self.complete(),
+            (_, Some(side)) => self.too_short(side),
+            (Some(fault), _) if self.target.is_empty() => Ok(fault),
+            _ => Ok(self.stuck()),
+        };
+        error.unwrap_or_else(|error| error)
+    }
+
+    fn stuck(&self) -> ContactError<T> {
+        SolveError::Bending { residual: self.before, solves: MAX_SOLVES }.into()
     }
 
     /// Refuses a contact that is some times too wide beside the kernel.
-    fn check_width(&self, found: &ContactState<T>, times: T) -> Result<(), ContactError<T>> {
+    fn check_width(&self, on: Interval<T>, times: f64) -> Result<(), ContactError<T>> {
         let Some(distance) = self.kernel.layer_distance() else { return Ok(()) };
         let thickness = T::of(0.5) * distance;
-        let (ratio, limit) = (found.interval.half_width() / thickness, T::of(THINNEST));
-        if ratio > times * limit {
+        let (ratio, limit) = (on.half_width() / thickness, T::of(THINNEST));
+        if ratio > T::of(times) * limit {
             return Err(InputError::LayerTooThin { ratio, limit }.into());
         }
         Ok(())
@@ -343,10 +317,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     }
 
     /// Begins anew.
-    fn restart(&mut self) {
+    fn restart(&mut self, spreads: Vec<Spread<T>>) {
         (self.part, self.before) = (T::one(), T::one() / T::zero());
         (self.from, self.target) = (Vec::new(), Vec::new());
-        self.spreads = self.begin();
+        self.spreads = spreads;
     }
 
     /// Takes half of the part of the correction.
@@ -358,90 +332,23 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         self.spreads.extend(self.target.iter().map(|spread| spread.times(part)));
     }
 
-    /// Goes on from a solve that failed: with a smaller load, or with less of the correction.
-    fn retreat(&mut self, error: ContactError<T>) -> Result<(), ContactError<T>> {
-        if ends(&error) || self.target.is_empty() && load(self.control).is_none() {
-            return Err(error);
+    /// Takes the start from cells, or else a shorter step, if there was a step.
+    fn less(&mut self) -> Result<(), ContactError<T>> {
+        if !std::mem::replace(&mut self.has_cells, true) && self.begin_with_cells()? {
+            return Ok(());
         }
-        if !self.target.is_empty() {
-            self.fault = Some(error);
-            return self.less().map(|_| ());
+        if self.target.is_empty() || self.part <= T::of(LEAST_PART) {
+            return Err(self.not_found());
         }
-        // The contact of half-planes is far wider than that of a layer may be.
-        let fault = match self.fault.take() {
-            Some(fault) => fault,
-            None => self.check_load(error)?,
-        };
-        self.share *= T::of(0.5);
-        if self.along != Along::Load || self.share < T::of(LEAST_SHARE) {
-            return Err(fault);
-        }
-        self.fault = Some(fault);
-        self.spreads = self.begin();
+        self.halve();
+        self.is_checked |= self.spreads.len() > 1;
         Ok(())
-    }
-
-    /// Takes a shorter step. Tells whether the contacts have to be sought anew.
-    fn less(&mut self) -> Result<bool, ContactError<T>> {
-        if self.from.is_empty() && self.reached > T::zero() {
-            // The load or the kernel has just grown.
-            self.growth = self.growth.sqrt();
-            if self.growth < T::of(LEAST_GROWTH) {
-                return Err(self.not_converged());
-            }
-            self.grow(self.growth * self.reached / self.share);
-        } else if self.part > T::of(LEAST_PART) {
-            self.halve();
-        } else if self.reached.is_zero() && self.share >= T::one() {
-            // On a soft base the kernel is a hundred times the half-planes' part.
-            (self.along, self.share) = match self.kernel.row {
-                Some(_) => (Along::Load, T::of(0.5)),
-                None => (Along::Kernel, T::of(FIRST_KERNEL)),
-            };
-            self.restart();
-            return Ok(true);
-        } else {
-            return Err(self.not_converged());
-        }
-        Ok(self.spreads.len() > 1)
-    }
-
-    /// Takes a larger load or more of the kernel, up to all of it.
-    fn more(&mut self) {
-        self.reached = self.share;
-        self.grow(self.growth.min(self.share.recip()));
-        self.before = T::one() / T::zero();
-        self.from.clear();
-    }
-
-    /// Multiplies the share. The bend grows with the load, and stays with more of the kernel.
-    fn grow(&mut self, factor: T) {
-        self.share = (self.share * factor).min(T::one());
-        let factor = if self.along == Along::Load { factor } else { factor.recip() };
-        self.target.iter_mut().for_each(|spread| *spread = spread.times(factor));
-        self.spreads.clone_from(&self.target);
-    }
-
-    /// Returns the control with the present share of the load.
-    fn reduced(&self) -> Control<T> {
-        let share = if self.along == Along::Load { self.share } else { T::one() };
-        match self.control {
-            Control::Load(load) => Control::Load(share * load),
-            Control::Moment { load, moment, about } => {
-                Control::Moment { load: share * load, moment: share * moment, about }
-            }
-            Control::CentreOfPressure { load, at } => {
-                Control::CentreOfPressure { load: share * load, at }
-            }
-            control => control,
-        }
     }
 
     /// Finds the contact of the bent bodies.
     fn solve(&mut self) -> Result<Solve<'b, T>, ContactError<T>> {
         let (kappa, is_checked, is_last) =
             (self.contact.kappa, self.is_checked, self.has_converged);
-        self.kernel.share = if self.along == Along::Kernel { self.share } else { T::one() };
         let is_again = self.bent.is_some();
         let gap = match (self.bent.take(), hull(&self.spreads)) {
             (Some(bent), _) => bent,
@@ -454,13 +361,13 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         let mut scene = self.contact.clone();
         scene.gap = gap.clone();
         (scene.single_interval, scene.is_trial) = (scene.single_interval | !is_checked, !is_last);
-        let control = self.reduced();
+        let control = self.control;
         let Work { integrator, workspace, cost } = &mut *self.work;
         **cost += integrator.cost();
         integrator.reset(is_again);
         (workspace.report, workspace.cell_work) = (Report::new(), 0);
         let found = find_under(&scene, control, self.work)?;
-        self.check_width(&found, T::of(MOST_TIMES))?;
+        self.check_width(found.interval, MOST_TIMES)?;
         let contacts = self.work.integrator.contacts(&found.interval).to_vec();
         self.look_beside(&contacts)?;
         self.work.keep(&gap.tilted(found.tilt), found.interval)?;

@@ -102,8 +102,8 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["an edge is Adhesive"],
         ),
         (
-            ContactError::Solve(SolveError::Bending { residual: 1.5, solves: 120, share: 0.5 }),
-            &["120 solves", "1.5", "0.5 of the load", "lower the load"],
+            ContactError::Solve(SolveError::Bending { residual: 1.5, solves: 120 }),
+            &["120 solves", "1.5", "lower the load"],
         ),
         (
             ContactError::Evaluation(EvaluationError::HalfPlanesOnly { quantity: "the approach" }),

@@ -636,13 +636,10 @@ class BendingError(SolveError):
         Residual of Eq. (1), as a share of its largest part.
     solves : int
         Number of solves.
-    share : float
-        Share of the load, or of the kernel, that was reached.
     """
 
     residual: float
     solves: int
-    share: float
 
 
 class CompleteContactError(SolveError):

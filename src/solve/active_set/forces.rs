@@ -18,7 +18,7 @@ const TOLERANCE: f64 = 1e-4;
 /// Largest number of steps of conjugate gradients for one system.
 const MAX_GRADIENTS: usize = 300;
 
-impl<T: Real> ActiveSet<T> {
+impl<T: Real> ActiveSet<'_, T> {
     /// Closes the gap in the loaded cells; returns the uncertainty of the forces.
     pub(super) fn solve(&mut self) -> T {
         self.solves += 1;
@@ -39,8 +39,13 @@ impl<T: Real> ActiveSet<T> {
         let sunk: Vec<_> = on.iter().map(|&i| self.rise[i] + self.potential[i]).collect();
         [self.level, self.slope] = line(&arms, [sum(&sunk), dot(&arms, &sunk)]);
         let rounding = T::of(64.0) * T::epsilon() * (T::one() + self.level.abs());
-        let is_exact = on.len() <= DENSE;
+        let is_exact = self.is_dense(on.len());
         if is_exact { rounding.min(T::of(0.1) * largest) } else { T::of(1e-3) * largest }
+    }
+
+    /// Tells whether the equations of so many loaded cells are all solved together.
+    fn is_dense(&self, count: usize) -> bool {
+        count <= DENSE || self.matrix.is_of_kernel()
     }
 
     /// Factors the matrix of some loaded cells.
@@ -64,7 +69,7 @@ impl<T: Real> ActiveSet<T> {
             self.matrix.of(&all, |i| self.cells[i].loaded, &mut sunk);
             on.iter().map(|&i| sunk[i]).collect()
         };
-        let together = if on.len() <= DENSE { DENSE } else { NEIGHBOURS };
+        let together = if self.is_dense(on.len()) { on.len() } else { NEIGHBOURS };
         let alone = on.chunks(together).map(|run| (run.len(), self.factor(run))).collect();
         let balance = Balance::new(arms, alone);
         let forces: Vec<_> = on.iter().map(|&i| self.cells[i].force.max(zero)).collect();

@@ -1,6 +1,6 @@
 //! Cells in which contacts are not yet resolved, and the contacts that cells show.
 
-use super::{ActiveSet, Coarse};
+use super::{ActiveSet, Cell, Coarse, MAX_OF_KERNEL};
 use crate::{Ends, Interval, Real};
 
 /// Least width of the cells at a narrow gap in a contact, as a share of the contact.
@@ -12,7 +12,7 @@ const LEAST_CUT: f64 = 1.0 / 16.0;
 /// Least gap between two runs, as a share of the wider one; closer runs are one.
 const LEAST_GAP_OF_CELLS: f64 = 1e-3;
 
-impl<T: Real> ActiveSet<T> {
+impl<T: Real> ActiveSet<'_, T> {
     /// Returns the first and last cell of each run of loaded cells.
     pub(super) fn runs(&self) -> Vec<[usize; 2]> {
         let mut runs: Vec<[usize; 2]> = Vec::new();
@@ -32,8 +32,15 @@ impl<T: Real> ActiveSet<T> {
         let width = |[from, to]: [usize; 2]| self.cells[to].right - self.cells[from].left;
         let mut mark = |from: usize, to: usize| marks[from..=to.min(n - 1)].fill(true);
         let runs = self.runs();
+        let widths = runs.iter().map(|&run| width(run)).fold(T::zero(), |sum, width| sum + width);
+        let too_many = widths / T::count(MAX_OF_KERNEL);
         for &run in &runs {
             let [from, to] = run;
+            if let Some(length) = self.length {
+                let coarse = from.saturating_sub(1)..=(to + 1).min(n - 1);
+                let is_wide = |&i: &usize| self.cells[i].width() > length.max(too_many);
+                coarse.filter(is_wide).for_each(|i| mark(i, i));
+            }
             if to + 1 - from < self.cells_of_a_run {
                 mark(from.saturating_sub(1), to + 1);
             }
@@ -140,7 +147,9 @@ impl<T: Real> ActiveSet<T> {
             right: runs.last().is_some_and(|run| run[1] == last),
         };
         let tilt = -self.slope * self.load / (self.kappa * (self.range[1] - self.range[0]));
-        Coarse { intervals, tilt, reaches }
+        let pressures = self.cells.iter().map(Cell::pressure);
+        let peak = self.load * pressures.fold(T::zero(), |most, pressure| most.max(pressure));
+        Coarse { intervals, tilt, peak, reaches }
     }
 
     /// Returns the runs as intervals.

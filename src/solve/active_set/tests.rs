@@ -6,10 +6,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 fn scene(load: f64, range: [f64; 2]) -> Scene<'static, f64> {
     let cells = FIRST_CELLS;
-    Scene { kappa: FRAC_PI_2, load, at: None, range, cells, known: &[], start: &[] }
+    let kappa = FRAC_PI_2;
+    Scene { kappa, load, at: None, range, cells, known: &[], start: &[], kernel: None }
 }
 
-fn set(scene: &Scene<'_, f64>, h: impl Fn(f64) -> f64) -> Result<ActiveSet<f64>, NotFound<f64>> {
+fn set<'s>(
+    scene: &Scene<'s, f64>,
+    h: impl Fn(f64) -> f64,
+) -> Result<ActiveSet<'s, f64>, NotFound<f64>> {
     let mut set = ActiveSet::new(scene, &mut |x| Ok(h(x)))?;
     set.settle(scene, &mut |x| Ok(h(x))).map(|()| set)
 }
@@ -259,6 +263,7 @@ fn single_precision() {
             cells: FIRST_CELLS,
             known: &[],
             start: &[],
+            kernel: None,
         };
         let found = active_set(&scene, &mut 0, &mut |x: f32| Ok(x * x / 2.0 + 3.0)).unwrap();
         let half = f64::from(4.0 * load / std::f32::consts::PI).sqrt();

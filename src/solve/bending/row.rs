@@ -21,7 +21,7 @@ const FREE: f64 = 0.1;
 impl<T: Real> Bending<'_, '_, '_, T> {
     /// Returns the pressures to begin with: none for half-planes.
     pub(super) fn begin(&self) -> Vec<Spread<T>> {
-        let (Some(row), Some(load)) = (&self.kernel.row, load(self.reduced())) else {
+        let (Some(row), Some(load)) = (&self.kernel.row, load(self.control)) else {
             return Vec::new();
         };
         let ([left, right], free) = (self.gap.range(), T::of(0.5 * FREE) * row.period);
@@ -83,24 +83,6 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         let is_wide =
             matches!(error, ContactError::Solve(CompleteContact { .. } | DomainTooShort { .. }));
         self.kernel.row.is_some() && is_wide
-    }
-
-    /// Returns the error of a first solve, or fails if the bodies touch all over a period.
-    pub(super) fn check_load(
-        &mut self,
-        error: ContactError<T>,
-    ) -> Result<ContactError<T>, ContactError<T>> {
-        if !self.fills(&error) {
-            return Ok(error);
-        }
-        match self.complete()? {
-            ContactError::Solve(SolveError::CompleteContact { load, complete })
-                if load < complete =>
-            {
-                Ok(error)
-            }
-            is_complete => Err(is_complete),
-        }
     }
 
     /// Returns the error for bodies that touch all over a period.

@@ -1,10 +1,11 @@
 //! Random coated bodies.
 
-use super::oracle::residual;
+use super::oracle::{compliance, residual};
 use super::{coated, half_plane, layer};
-use crate::common::graph;
+use crate::common::{Profile, graph};
 use crate::random_scenes::Dice;
-use linecontact::{Base, Control, Foundation, Layer, Material};
+use linecontact::profile::Ellipse;
+use linecontact::{Base, ContactError, Control, Foundation, InputError, Layer, Material};
 use std::f64::consts::PI;
 
 /// A random layer, and the compliance of its surface.
@@ -76,4 +77,92 @@ fn random_coated_bodies_meet_the_equation() {
         assert!(solution.certify().is_ok(), "{seed}: {:?}", solution.certify());
     }
     assert!(1000 * refused <= count, "{refused} refused");
+}
+
+/// A circle, a parabola or a rough body on a layer, and a load of about this half-width by the
+/// thickness: any base and any Poisson's ratio up to 1/2.
+struct Loaded {
+    layer: Layer<f64>,
+    other: Material<f64>,
+    /// Share of the layer in the compliance.
+    share: f64,
+    kappa: f64,
+    body: Profile,
+    slope: Box<dyn Fn(f64) -> f64>,
+    load: f64,
+}
+
+fn loaded(random: &mut Dice) -> Loaded {
+    let ratio = [0.0, 0.3, 0.45, 0.49, 0.5][(5.0 * random.uniform()) as usize];
+    let stiff = random.power_of_ten(-3.0, 3.0);
+    let base = match (4.0 * random.uniform()) as usize {
+        0 => Base::Bonded,
+        1 => Base::Frictionless,
+        _ => half_plane(1.0 / stiff, random.within(0.0, 0.5)),
+    };
+    let layer = layer(1.0, ratio, 1.0, base);
+    let half_width = random.power_of_ten(-1.0, 2.0);
+    let (own, modulus) = (1.0 - ratio * ratio, random.power_of_ten(-1.0, 2.0));
+    let (other, beside) = match random.uniform() < 0.3 {
+        true => (Material::elastic(modulus, 0.3), 0.91 / modulus),
+        false => (Material::Rigid, 0.0),
+    };
+    let (share, kappa) = (own / (own + beside), PI / 2.0 / (own + beside));
+    let soft = 1.0 + share * (compliance(&layer, 3.0 / half_width) - 1.0);
+    // Under a stiff coating the contact may be some times as wide.
+    let times = if matches!(base, Base::HalfPlane(_)) && stiff > 10.0 { 12.0 } else { 1.0 };
+    let radius = times * half_width * random.power_of_ten(0.5, 3.0);
+    let end = times * half_width * random.within(2.5, 6.0);
+    let load = 0.5 * kappa * half_width * half_width / (soft * radius);
+    let (wave, part) = (random.power_of_ten(0.0, 1.3) / half_width, random.power_of_ten(-2.0, 1.5));
+    let phase = random.within(0.0, 2.0 * PI);
+    let (body, slope): (Profile, Box<dyn Fn(f64) -> f64>) = match (3.0 * random.uniform()) as usize
+    {
+        0 => {
+            let body = graph(-end, end, move |x| [0.5 * x * x / radius, x / radius]);
+            (body, Box::new(move |x| x / radius))
+        }
+        1 => {
+            let end = (end / radius).min(0.9);
+            let body = Ellipse::circle(radius, [-end.asin(), end.asin()]).unwrap();
+            (Box::new(body), Box::new(move |x| x / (radius * radius - x * x).sqrt()))
+        }
+        _ => {
+            let slope = move |x: f64| (x - part / wave * (wave * x + phase).sin()) / radius;
+            let height = move |x: f64| {
+                (0.5 * x * x + part / (wave * wave) * (wave * x + phase).cos()) / radius
+            };
+            (graph(-end, end, move |x| [height(x), slope(x)]), Box::new(slope))
+        }
+    };
+    Loaded { layer, other, share, kappa, body, slope, load }
+}
+
+/// Loads on layers that are thick or thin, stiff or soft. Some contacts are wider than is solved.
+#[test]
+fn random_loads_on_layers_meet_the_equation() {
+    let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(100);
+    let (mut refused, mut too_thin) = (0, 0);
+    for seed in 0..count {
+        let scene = loaded(&mut Dice::new(61_000 + seed));
+        let contact = coated(&scene.body, scene.layer, scene.other);
+        let solution = match contact.solve(Control::Load(scene.load)) {
+            Ok(solution) => solution,
+            Err(ContactError::Input(InputError::LayerTooThin { ratio, .. })) => {
+                assert!(ratio > 100.0);
+                too_thin += 1;
+                continue;
+            }
+            Err(error) => {
+                println!("{seed}: {error}");
+                refused += 1;
+                continue;
+            }
+        };
+        let layers = [(scene.share, scene.layer)];
+        let off = residual(&solution, scene.kappa, &layers, None, scene.slope);
+        assert!(off < 1e-8, "{seed}: {off:e}");
+        assert!(solution.certify().is_ok(), "{seed}: {:?}", solution.certify());
+    }
+    assert!(1000 * refused <= count && 50 * too_thin <= count, "{refused}, {too_thin}");
 }

@@ -1,0 +1,116 @@
+//! Start from cells with the whole kernel.
+//!
+//! On a thin layer, or on a base far softer than its coating, the contact of half-planes is no
+//! start. There an active set finds the contacts, to a part of the thickness; Eq. (1) on them, with
+//! singular edges, has pressures whose bend fits them. From there on the limits are moved as by
+//! Newton's method for the whole equation.
+
+use super::Bending;
+use crate::gap::Sampler;
+use crate::kernel::{Given, Kept, at_least, pressed};
+use crate::solve::active_set::{Coarse, FIRST_CELLS, LENGTH, NotFound, Scene, active_set};
+use crate::solve::capacity::Capacity;
+use crate::{ContactError, Control, Edge, Real, Side};
+
+/// Factor by which cells may be wrong in a contact that is too wide.
+const DOUBT: f64 = 1.01;
+
+/// Share of a load that is too large from which another one is sought, and the ratio of those that
+/// enclose what is borne.
+const FIRST_SHARE: f64 = 0.1;
+const CLOSE: f64 = 1.005;
+
+/// Load and the place where it acts, if the bodies turn.
+type Load<T> = (T, Option<T>);
+
+impl<T: Real> Bending<'_, '_, '_, T> {
+    /// Begins with the contacts of cells. Tells whether there are any: a load must be given.
+    pub(super) fn begin_with_cells(&mut self) -> Result<bool, ContactError<T>> {
+        let Some((load, at)) = line_of_load(self.control) else { return Ok(false) };
+        let Some(coarse) = self.coarse((load, at))? else { return Ok(false) };
+        self.reaches = self.end_reached(&coarse);
+        if self.reaches.is_some() && self.kernel.row.is_some() {
+            return Ok(false);
+        }
+        self.check_width(coarse.hull(), DOUBT)?;
+        let (kappa, gap, contacts) = (self.contact.kappa, &self.gap, &coarse.intervals);
+        let kept = if at.is_some() { Kept::Moment(kappa) } else { Kept::Load };
+        let loads = [Some(load), at.map(|at| load * at)];
+        let loads: Vec<T> = loads.into_iter().flatten().collect();
+        let [mut slopes, mut heights] = [Sampler::default(), Sampler::default()];
+        let given = Given {
+            slope: |x| slopes.slope(gap, x).map(|slope| kappa * slope),
+            height: |x| heights.height(gap, x).map(|height| kappa * height),
+        };
+        let pressed = pressed(&self.kernel, contacts, kept, &loads, given);
+        self.work.cost.evaluations += slopes.cost.evaluations;
+        self.work.cost.heights += heights.cost.evaluations;
+        let Some(spreads) = pressed? else { return Ok(false) };
+        self.work.workspace.keep(contacts);
+        // Waves may be shorter than a cell.
+        self.is_checked = true;
+        self.restart(spreads);
+        self.cut()?;
+        Ok(true)
+    }
+
+    /// Returns the end of the bodies that contacts reach with no corner to hold them.
+    fn end_reached(&self, coarse: &Coarse<T>) -> Option<Side> {
+        let edges = self.contact.edges;
+        Side::BOTH.into_iter().find(|&side| coarse.reaches[side] && edges[side] == Edge::Free)
+    }
+
+    /// Returns the error for contacts that reach an end, with what the bodies bear in others.
+    pub(super) fn too_short(&mut self, side: Side) -> Result<ContactError<T>, ContactError<T>> {
+        let Some((load, at)) = line_of_load(self.control) else { return Ok(self.stuck()) };
+        let end = self.contact.ends_of(&self.gap)[side];
+        let (mut borne, mut high) = (Capacity::nothing(end), load);
+        while high > T::epsilon() * load && high > T::of(CLOSE) * borne.load {
+            let low = if borne.load.is_zero() { T::of(FIRST_SHARE) * high } else { borne.load };
+            let next = low.sqrt() * high.sqrt();
+            let coarse = self.coarse((next, at))?;
+            match coarse.filter(|coarse| self.end_reached(coarse).is_none()) {
+                Some(coarse) => {
+                    let (half_width, peak) = (coarse.hull().half_width(), coarse.peak);
+                    borne = Capacity { half_width, end, load: next, peak };
+                }
+                None => high = next,
+            }
+        }
+        Ok(borne.too_short(load))
+    }
+
+    /// Returns the contacts of cells.
+    fn coarse(&mut self, (load, at): Load<T>) -> Result<Option<Coarse<T>>, ContactError<T>> {
+        let (kernel, gap, kappa) = (&self.kernel, &self.gap, self.contact.kappa);
+        let ends = self.contact.ends_of(gap);
+        let range = [ends.left, ends.right];
+        // Cut in three again and again, the cells have the width that resolves the kernel.
+        let mut count = (range[1] - range[0]) / (T::of(LENGTH) * kernel.distance());
+        while count > T::count(3 * FIRST_CELLS) && count.is_finite() {
+            count /= T::of(3.0);
+        }
+        let cells = at_least(count.component(0)).max(FIRST_CELLS);
+        let (known, start, kernel, mut work) = (&[][..], &[][..], Some(kernel), 0);
+        let scene = Scene { kappa, load, at, range, cells, known, start, kernel };
+        let mut heights = Sampler::default();
+        let mut height = |x: T| heights.height(gap, gap.nearest(x));
+        let found = active_set(&scene, &mut work, &mut height);
+        self.work.cost.heights += heights.cost.evaluations;
+        match found {
+            Ok(coarse) if !coarse.intervals.is_empty() => Ok(Some(coarse)),
+            Err(NotFound::Height(error)) => Err(error),
+            _ => Ok(None),
+        }
+    }
+}
+
+/// Returns the load of a control, and the place where it acts if the bodies turn.
+pub(super) fn line_of_load<T: Real>(control: Control<T>) -> Option<Load<T>> {
+    match control {
+        Control::Load(load) => Some((load, None)),
+        Control::Moment { load, moment, about } => Some((load, Some(about + moment / load))),
+        Control::CentreOfPressure { load, at } => Some((load, Some(at))),
+        _ => None,
+    }
+}
