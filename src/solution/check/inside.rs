@@ -123,7 +123,15 @@ impl<T: Real> Inside<'_, T> {
                     // The place of a least value is known to the root of this.
                     let enough = T::epsilon().powf(T::of(0.75)) * value.abs();
                     let [deepest, _] = least(&series, enough);
-                    self.look_at(&[place(s), place(deepest)], found)?;
+                    // At a limit the pressure is not defined: half the way to the first node.
+                    let first = T::of(0.5) * from + T::of(0.5) * x[0];
+                    let last = T::of(0.5) * x[NODES - 1] + T::of(0.5) * to;
+                    let within = |s: T| match place(s) {
+                        at if at <= self.on.left => first,
+                        at if at >= self.on.right => last,
+                        at => at,
+                    };
+                    self.look_at(&[within(s), within(deepest)], found)?;
                 }
             }
             if !matches!(sign, Sign::Open) {
