@@ -201,9 +201,9 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
                 // With limits held the contact is wider, and may need more than the bodies have, or
                 // may not reach so far.
                 Err(other @ (Fault::Beyond(_) | Fault::Error(_)))
-                    if may_be_held && self.lets_all_go() =>
+                    if may_be_held && fault.is_none() && self.lets_all_go() =>
                 {
-                    fault = fault.or(Some(other));
+                    fault = Some(other);
                     continue;
                 }
                 Err(other) => return Err(fault.unwrap_or(other)),

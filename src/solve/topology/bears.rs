@@ -72,13 +72,19 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         error: ContactError<T>,
     ) -> Result<ContactState<T>, ContactError<T>> {
-        if self.runs_out.is_none() || self.end.is_some() {
+        // Of a single interval, no cells show that bodies that turn are too short.
+        let is_blind = self.contact.single_interval && self.turns();
+        let may_run_out = self.runs_out.is_some() || is_blind && is_nowhere(&error);
+        if !may_run_out || self.end.is_some() {
             return Err(error);
         }
         let (ends, conditions) = (self.contact.ends(), self.conditions);
         let borne = match self.end_touched_first() {
             Some(side) => Some(Borne::UpTo(Capacity::nothing(ends[side]))),
-            None => self.under_some_load(&conditions),
+            None => self.under_some_load(&conditions).or_else(|| {
+                let side = self.end_that_supports(conditions.at()?)?;
+                Some(Borne::UpTo(Capacity::nothing(ends[side])))
+            }),
         };
         let error = match borne {
             Some(Borne::All(found)) => return Ok(found),
@@ -112,12 +118,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         is_at_end.then(|| SolveError::TiltNotFound { load, at, reached, tilt, ends }.into())
     }
 
-    /// Returns the end of the bodies at which the gap is lowest, or which is one of the two
-    /// supports of a light load along a given line: they bear no load then.
+    /// Returns the end of the bodies at which the gap is lowest: they bear no load then, unless
+    /// they turn.
     pub(super) fn end_touched_first(&mut self) -> Option<Side> {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
-        if let Some(at) = self.conditions.at() {
-            return self.end_that_supports(at);
+        if self.turns() {
+            return None;
         }
         let lowest = self.look().ok()?.lowest();
         Side::BOTH.into_iter().find(|&side| lowest == ends[side] && !at_corner[side])
@@ -296,6 +302,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         Some((low, high))
     }
+}
+
+/// Tells whether a search has ended with no contact at all.
+fn is_nowhere<T: Real>(error: &ContactError<T>) -> bool {
+    let lifts_off = matches!(error, ContactError::Solve(SolveError::LiftsOff { .. }));
+    error.may_be_several() && !lifts_off
 }
 
 /// Returns the side at which the gap is lower.
