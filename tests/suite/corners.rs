@@ -7,7 +7,8 @@ use approx::assert_relative_eq;
 use common::{graph, on_flat, parabola};
 use linecontact::profile::Parabola;
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Solution, SolveError, Solver,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Piecewise, Solution, SolveError,
+    Solver,
 };
 use std::f64::consts::PI;
 
@@ -174,5 +175,27 @@ fn corners_that_the_load_does_not_reach() {
         let held = contact.clone().edges(edges[0], edges[1]);
         let error = held.solve(Control::Load(0.01)).map(|s| s.hull()).unwrap_err();
         assert!(matches!(error, ContactError::Solve(SolveError::LiftsOff { .. })), "{error}");
+    }
+}
+
+/// Two pads, each held at both of its corners: no limit is free but the one at the end up to which
+/// the load is sought.
+#[test]
+fn a_peak_between_corners_is_refused() {
+    // A hollow punch with a groove in the middle.
+    let groove = |x: f64| (0.01 - x.abs()).max(0.0);
+    let height = move |x: f64, slope: f64| CurvePoint {
+        x,
+        y: groove(x) - 0.01 * x * x,
+        dx: 1.0,
+        dy: slope - 0.02 * x,
+    };
+    let pieces = [(-0.5, -0.01, 0.0), (-0.01, 0.0, 1.0), (0.0, 0.01, -1.0), (0.01, 0.5, 0.0)];
+    let pieces = pieces.map(|(from, to, slope)| Curve::new([from, to], move |x| height(x, slope)));
+    let punch = Piecewise::new(pieces.into()).unwrap();
+    let contact = on_flat(Box::new(punch)).edges(Edge::FreeUntil(-0.5), Edge::FreeUntil(0.5));
+    for peak in [0.02, 0.2, 2.0] {
+        let error = contact.solve(Control::PeakPressure(peak)).map(|s| s.hull()).unwrap_err();
+        assert!(matches!(error, ContactError::Solve(SolveError::NoPeak { .. })), "{error}");
     }
 }

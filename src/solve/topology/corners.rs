@@ -100,6 +100,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         before.clone_from(on);
         held.resize(on.len().max(1), Ends::both(false));
         let (last, mut is_held) = (held.len() - 1, false);
+        let outermost = |side| if side == Side::Left { 0 } else { last };
         for side in Side::BOTH {
             let reaches = match (side, on.first(), on.last()) {
                 (Side::Left, Some(on), _) => on.left <= ends.left,
@@ -109,7 +110,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             // A given width cannot be held at both.
             if at_corner[side] && self.end != Some(side) && reaches && (by_load || !is_held) {
                 is_held = true;
-                held[if side == Side::Left { 0 } else { last }][side] = true;
+                held[outermost(side)][side] = true;
                 if !on.is_empty() {
                     put(on, side, ends[side]);
                 }
@@ -122,6 +123,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let mean = conditions.load() / conditions.kappa / on.iter().fold(T::zero(), sum);
         for i in 0..on.len() {
             for side in Side::BOTH {
+                // The load is sought under which this limit is at the end.
+                if self.end == Some(side) && i == outermost(side) {
+                    continue;
+                }
                 let on = self.work.workspace.newton.on[i];
                 if let Some(z) = self.corner_next_to(on, side, mean)? {
                     self.hold_at(i, side, z);
