@@ -136,12 +136,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
             _ => self.no_balance(),
         };
         let Contact { gap, single_interval, .. } = self.contact;
+        if *single_interval {
+            return (Outcome::NotFound, Err(error));
+        }
+        // The first search had no survey of the bodies.
+        if self.start == Start::Middle && gap.is_convex() && is_lost(&error) {
+            return (Outcome::NotFound, Ok(Start::LowestGap));
+        }
         let next = match self.is_of_any_number(&error) {
-            _ if *single_interval => Err(error),
-            // The first search had no survey of the bodies.
-            _ if self.start == Start::Middle && gap.is_convex() && is_lost(&error) => {
-                Ok(Start::LowestGap)
-            }
             Ok(true) => Err(error),
             Ok(false) => {
                 self.of_one = Some(error);
