@@ -35,6 +35,12 @@ const BELOW: f64 = 1.0 / 64.0;
 /// Share of the last ρ that shows that it falls no more.
 const STALLED: f64 = 0.2;
 
+/// Share of the load of complete contact from which on a lighter load may be a start, its share of
+/// the load, and the least factor from there to the next.
+const LIGHT: f64 = 0.05;
+const LIGHTER: f64 = 0.8;
+const LEAST_GROWTH: f64 = 1.005;
+
 /// Least part of a correction that is tried.
 const LEAST_PART: f64 = 1.0 / 64.0;
 
@@ -90,11 +96,55 @@ pub(super) fn find<'b, T: Real>(
         let by = ByApproach { references, bodies };
         return by_load::find_of(contact, Some(kernel), &by, ("approach", approach), work);
     }
+    let mut found = from_last(contact, kernel, control, work);
+    // Where a row is about to touch all over, the contacts under a lighter load are a start, and so
+    // are those under each load on the way.
+    if let (Err(ContactError::Solve(SolveError::CompleteContact { load, complete })), true) =
+        (&found, matches!(control, Control::Load(_)))
+        && load < complete
+        && *load > T::of(LIGHT) * *complete
+        && find(contact, kernel, Control::Load(T::of(LIGHTER) * *load), work).is_ok()
+    {
+        let (load, mut growth) = (*load, T::of(LIGHTER).recip());
+        let mut reached = T::of(LIGHTER) * load;
+        while reached < load && growth > T::of(LEAST_GROWTH) {
+            let next = if growth * reached < load { growth * reached } else { load };
+            let last = work.workspace.spreads.clone();
+            found = from_last(contact, kernel, Control::Load(next), work);
+            if found.is_ok() {
+                reached = next;
+            } else {
+                (work.workspace.spreads, growth) = (last, growth.sqrt());
+            }
+        }
+    }
+    match (found, control) {
+        (Err(error), _) if ends(&error) => Err(error),
+        (Err(error), Control::HalfWidth(half_width)) if fills(kernel, half_width) => Err(error),
+        // The same bodies without the kernel, or with that of another load, may not be as wide.
+        (Err(_), Control::HalfWidth(half_width)) => {
+            by_load::find_of(contact, Some(kernel), &HalfWidth, ("half-width", half_width), work)
+        }
+        (Err(_), Control::PeakPressure(peak)) => {
+            let by = Peak::new(contact)?;
+            by_load::find_of(contact, Some(kernel), &by, ("peak pressure", peak), work)
+        }
+        (found, _) => found,
+    }
+}
+
+/// Finds the contact from the pressures of the last solve, if there are any.
+fn from_last<'b, T: Real>(
+    contact: &Contact<'b, T>,
+    kernel: &Kernel<'b, T>,
+    control: Control<T>,
+    work: &mut Work<'_, T>,
+) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
     let spreads = warm(std::mem::take(&mut work.workspace.spreads), control);
     let (before, one) = (T::one() / T::zero(), T::one());
     let [from, target] = [Vec::new(), Vec::new()];
     let gap = contact.gap.clone();
-    let found = Bending {
+    Bending {
         contact,
         gap,
         bent: None,
@@ -113,20 +163,7 @@ pub(super) fn find<'b, T: Real>(
         has_converged: false,
         may_be_one: true,
     }
-    .find();
-    match (found, control) {
-        (Err(error), _) if ends(&error) => Err(error),
-        (Err(error), Control::HalfWidth(half_width)) if fills(kernel, half_width) => Err(error),
-        // The same bodies without the kernel, or with that of another load, may not be as wide.
-        (Err(_), Control::HalfWidth(half_width)) => {
-            by_load::find_of(contact, Some(kernel), &HalfWidth, ("half-width", half_width), work)
-        }
-        (Err(_), Control::PeakPressure(peak)) => {
-            let by = Peak::new(contact)?;
-            by_load::find_of(contact, Some(kernel), &by, ("peak pressure", peak), work)
-        }
-        (found, _) => found,
-    }
+    .find()
 }
 
 /// Tells whether a contact of this half-width fills the period of a row.
