@@ -199,3 +199,19 @@ fn a_peak_between_corners_is_refused() {
         assert!(matches!(error, ContactError::Solve(SolveError::NoPeak { .. })), "{error}");
     }
 }
+
+/// With both corners held the left one pulls: the last contact lies between them, and the next one
+/// would pass both if it were free.
+#[test]
+fn a_corner_that_was_passed_lets_go_if_the_other_one_holds() {
+    let contact = on_flat(parabola(2.0)).edges(Edge::FreeUntil(-0.5), Edge::FreeUntil(0.5));
+    for load in [0.4, 1.0, 4.0] {
+        let mut solver = Solver::new();
+        solver.solve(&contact, Control::CentreOfPressure { load: 0.005, at: -0.3 }).unwrap();
+        let control = Control::CentreOfPressure { load, at: 0.33 };
+        let [warm, cold] = [solver.solve(&contact, control), contact.solve(control)];
+        let [warm, cold] = [warm.unwrap().hull(), cold.unwrap().hull()];
+        assert_relative_eq!(warm.left, cold.left, epsilon = 1e-13);
+        assert!(warm.left > -0.4 && [warm.right, cold.right] == [0.5; 2], "{warm:?} {cold:?}");
+    }
+}

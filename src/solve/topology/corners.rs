@@ -41,6 +41,10 @@ const SHORT_WALL: f64 = 1e-4;
 /// Share of a contact's half-width by which a limit leaves a corner inward.
 const STEP_INWARD: f64 = 0.01;
 
+/// Number of times that a limit passes its corner, after which it stays held there: the first time,
+/// the other limit may have been free, too.
+const MAX_PASSES: usize = 2;
+
 /// Least ratio of distances d that are let go together.
 const TOGETHER: f64 = 0.01;
 
@@ -144,8 +148,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Holds the limits of the only contact that have passed a corner at an end of the bodies;
-    /// tells whether there are any, and marks them in `passed`.
-    pub(super) fn passes(&mut self, found: &ContactState<T>, passed: &mut Ends<bool>) -> bool {
+    /// tells whether there are any, and counts them in `passed`.
+    pub(super) fn passes(&mut self, found: &ContactState<T>, passed: &mut Ends<usize>) -> bool {
         let (edges, on, mut any) = (self.edges(), found.interval, false);
         if self.work.workspace.newton.on.len() > 1 {
             return false;
@@ -155,7 +159,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             let rounding = T::of(8.0) * T::epsilon() * (z.abs() + on.half_width());
             if outward::<T>(side) * (on[side] - z) > rounding {
                 self.hold_at(0, side, z);
-                (passed[side], any) = (true, true);
+                (passed[side], any) = (passed[side] + 1, true);
             }
         }
         any
@@ -259,12 +263,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
         slopes
     }
 
-    /// Lets go of corners that do not hold the contacts found, unless a free limit has passed them,
-    /// and tells whether there are any. Otherwise adds the error of the limits that stay held.
+    /// Lets go of corners that do not hold the contacts found, unless a free limit has passed them
+    /// time and again; tells whether there are any. Otherwise adds the error of the limits that
+    /// stay held.
     pub(super) fn lets_go(
         &mut self,
         found: &mut ContactState<T>,
-        passed: Ends<bool>,
+        passed: Ends<usize>,
     ) -> Result<bool, ContactError<T>> {
         let held = self.strengths(found);
         if held.is_empty() {
@@ -272,7 +277,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         let lower =
             |one: Held<T>, other: Held<T>| if other.strength < one.strength { other } else { one };
-        let held = held.into_iter().filter(|held| !passed[held.side]);
+        let held = held.into_iter().filter(|held| passed[held.side] < MAX_PASSES);
         let lowest = held.reduce(lower).filter(|held| held.strength < T::zero());
         if let Some(Held { contact, side, z, .. }) = lowest {
             let half_width = self.work.workspace.newton.on[contact].half_width();
