@@ -10,17 +10,14 @@ pub(super) enum Fault<T: Real> {
     Overlap(ContactError<T>),
     /// Flags: contacts that vanish, and contacts with a gap after them that closes; and those of
     /// these gaps that are as narrow as rounding.
-    Gone {
-        vanished: Vec<bool>,
-        closed: Vec<bool>,
-        met: Vec<Interval<T>>,
-    },
+    Gone { vanished: Vec<bool>, closed: Vec<bool>, met: Vec<Interval<T>> },
     /// End of the bodies that a limit passes, step after step.
     Beyond(Side),
     /// Limits that are not found.
     Failed,
-    /// Error of a search that another set of contacts may avoid, or not.
+    /// Error of a search that another set of contacts may avoid.
     Error(ContactError<T>),
+    /// Error that no other set would avoid.
     Final(ContactError<T>),
 }
 

@@ -27,9 +27,8 @@ const MAX_CELL_UNCERTAINTY: f64 = 2e-4;
 /// Doublings of the cells: 2 112 of them separate contacts a thousandth of the bodies apart.
 const MAX_DOUBLINGS: usize = 6;
 
-/// Share of a contact's half-width by which a limit leaves a corner that does not hold it. Its
-/// square is the first half-width of a contact put at an overlap, as a share of the bodies.
-const CORNER_STEP: f64 = 0.01;
+/// First half-width of a contact put at an overlap, as a share of the bodies.
+const SEED_WIDTH: f64 = 1e-4;
 
 /// Next start, or the error of the search.
 type Next<T> = Result<Start, ContactError<T>>;
@@ -207,7 +206,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             *on = on.drain(..).flat_map(apart).collect();
         }
         let half = T::of(0.5);
-        let aside = T::of(CORNER_STEP * CORNER_STEP) * (ends.right - ends.left);
+        let aside = T::of(SEED_WIDTH) * (ends.right - ends.left);
         for &[x, _] in &overlaps.dips {
             let at = on.partition_point(|on| on.right < x);
             let left = if at == 0 { ends.left } else { on[at - 1].right };
@@ -237,9 +236,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
     pub(super) fn take_cells(&mut self) -> Result<(), ContactError<T>> {
         self.show_panels()?;
         // This number of cells has not failed yet.
-        let cells = self.cells;
+        let (cells, conditions) = (self.cells, self.conditions);
         self.cells = (cells + cells).min(FIRST_CELLS << MAX_DOUBLINGS);
-        let coarse = self.coarse(&self.conditions.clone(), cells)?;
+        let coarse = self.coarse(&conditions, cells)?;
         self.runs_out = self.end_reached(&coarse);
         let tilt = self.contact.gap.tilt() + coarse.tilt;
         let newton = &mut self.work.workspace.newton;
