@@ -49,7 +49,7 @@ impl<T: Real> ContactState<T> {
     }
 
     /// Returns the error for a corner declared to hold the contact that is in tension or not
-    /// reached.
+    /// reached, or for another one at an end that pulls where it holds the contact.
     pub(crate) fn lifts_off(&self, edges: Ends<Edge<T>>) -> Option<ContactError<T>> {
         let (interval, load, reaches) = (self.interval, self.load, self.reaches(edges));
         let mean = T::of(0.5) * load.abs() / interval.half_width();
@@ -58,7 +58,43 @@ impl<T: Real> ContactState<T> {
             (Edge::Fixed(x), strength) if strength < -rounding || !reaches[side] => {
                 Some(ContactError::Solve(SolveError::LiftsOff { x, strength, interval, load }))
             }
+            (Edge::FreeUntil(x), strength) if strength < -rounding && !self.free[side] => {
+                Some(ContactError::Solve(SolveError::LiftsOff { x, strength, interval, load }))
+            }
             _ => None,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A corner that pulls where it holds a contact is a fault, whether it is declared to hold it or
+    /// not; a free limit within it is none.
+    #[test]
+    fn a_corner_that_pulls_is_no_contact() {
+        let on = Interval { left: -1.0, right: 1.0 };
+        let found = |free: Ends<bool>, left: f64| ContactState {
+            interval: on,
+            load: 1.0,
+            strengths: Ends { left, right: 0.0 },
+            free,
+            adhesive: Ends::both(false),
+            error: None,
+            error_by_load: None,
+            load_error: None,
+            moment_derivatives: None,
+            tilt: 0.0,
+            ends: Ends { left: -1.0, right: 1.0 },
+        };
+        let held = Ends { left: false, right: true };
+        for corner in [Edge::Fixed(-1.0), Edge::FreeUntil(-1.0)] {
+            let edges = Ends { left: corner, right: Edge::Free };
+            assert!(found(held, 0.1).lifts_off(edges).is_none());
+            assert!(found(held, -0.1).lifts_off(edges).is_some());
+        }
+        let within = Ends { left: Edge::FreeUntil(-1.0), right: Edge::Free };
+        assert!(found(Ends::both(true), -1e-3).lifts_off(within).is_none());
     }
 }

@@ -27,6 +27,14 @@ use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
 pub(super) use bears::up_to_corner;
 pub(crate) use workspace::Workspace;
 
+/// Largest number of times that the limits of a set are sought, held or let go.
+const MAX_HELD_ROUNDS: usize = 200;
+
+/// Square of the relative change of the load, times the number of contacts, up to which the last
+/// contacts are the start: beyond, contacts that are born and vanish take more attempts than it
+/// saves (measured with 2 to 300 contacts).
+const MAX_CHANGE: f64 = 0.5;
+
 /// Finds the contacts of two bodies, or the load that they bear.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
@@ -217,7 +225,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
                 return Ok(found);
             }
         }
-        Err(Fault::Failed)
+        Err(fault.unwrap_or(Fault::Failed))
     }
 
     /// Moves the contacts at hand once, with some limits held.
@@ -300,14 +308,6 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         by_load && self.work.may_find_several(self.contact)
     }
 }
-
-/// Largest number of times that the limits of a set are sought, held or let go.
-const MAX_HELD_ROUNDS: usize = 200;
-
-/// Square of the relative change of the load, times the number of contacts, up to which the last
-/// contacts are the start: beyond, contacts that are born and vanish take more attempts than it
-/// saves (measured with 2 to 300 contacts).
-const MAX_CHANGE: f64 = 0.5;
 
 /// Returns the request to the survey for these conditions.
 fn asked_by<T: Real>(conditions: &Conditions<T>) -> Asked<T> {
