@@ -70,8 +70,8 @@ impl<T: Real> ContactState<T> {
 mod tests {
     use super::*;
 
-    /// A corner that pulls where it holds a contact is a fault, whether it is declared to hold it or
-    /// not; a free limit within it is none.
+    /// A corner that pulls where it holds a contact is a fault, whether it is declared to hold it
+    /// or not; a free limit within it is none.
     #[test]
     fn a_corner_that_pulls_is_no_contact() {
         let on = Interval { left: -1.0, right: 1.0 };
