@@ -9,7 +9,7 @@ pub use crate::edge::Edge;
 pub use control::Control;
 pub use edge_pressure::EdgePressure;
 
-use crate::error::is_subnormal;
+use crate::error::{HELD_LOAD, is_subnormal};
 use crate::gap::{Cost, Gap, Shape};
 use crate::kernel::{Formula, Kernel, Layers, RegularKernel, SurfaceCompliance};
 use crate::material::{Elasticity, Foundation, PlaneState};
@@ -440,7 +440,7 @@ impl<'b, T: Real> Contact<'b, T> {
         // Adhesion can bear a tensile load, and so can an interval that is not checked.
         let may_pull = edges.are_adhesive() || self.single_interval && !edges.are_sought();
         if !may_pull {
-            check_positive("load", load)?;
+            check_positive(if edges.are_sought() { "load" } else { HELD_LOAD }, load)?;
         } else if !load.is_finite() {
             return Err(InputError::InvalidLoad { quantity: "load", value: load }.into());
         }

@@ -6,7 +6,7 @@ mod input;
 mod reference;
 mod solve;
 
-pub(crate) use advice::is_subnormal;
+pub(crate) use advice::{HELD_LOAD, is_subnormal};
 pub use evaluation::EvaluationError;
 pub use input::InputError;
 pub use reference::ReferenceError;

@@ -124,8 +124,8 @@ pub struct RollerState<T> {
     /// symmetric. Force/length and force in the first row, force and force × length in the second.
     pub stiffness: [[T; 2]; 2],
     /// Bound of the relative error of the load that the table leaves: its own
-    /// [error](SpringTable::error), and the load of all slices below it, had they the least load of
-    /// the table. Neither the number of slices nor the model is in it.
+    /// [error](SpringTable::error), and that of all slices [below its first
+    /// load](SpringTable::touch_error). Neither the number of slices nor the model is in it.
     pub error: T,
     /// Slices, by rising z.
     pub slices: Vec<RollerSlice<T>>,
@@ -167,10 +167,11 @@ impl<T: Real> FiniteRoller<T> {
     }
 
     /// Returns the state at a given approach at the middle, a length, and misalignment, in radians.
+    /// Apart, the bodies bear no load.
     ///
     /// # Errors
-    /// [`EvaluationError::SliceOutsideTable`], for bodies apart, too; [`InputError::InvalidMoment`]
-    /// for a misalignment that is not finite.
+    /// [`EvaluationError::SliceOutsideTable`]; [`InputError::InvalidMoment`] for a misalignment
+    /// that is not finite.
     pub fn at(&self, approach: T, misalignment: T) -> Result<RollerState<T>, ContactError<T>> {
         let nearest = self.nearest(misalignment)?;
         self.checked(self.pressed(approach - nearest, misalignment, nearest))
@@ -179,7 +180,7 @@ impl<T: Real> FiniteRoller<T> {
     /// Returns the state under a given load, a force, at a given misalignment, in radians.
     ///
     /// # Errors
-    /// [`InputError::InvalidLoad`] for a load that is not positive and finite;
+    /// [`InputError::InvalidLoad`] for a load that is negative or not finite;
     /// [`SolveError::RollerNotFound`]; those of [`at`](Self::at).
     pub fn under_load(&self, load: T, misalignment: T) -> Result<RollerState<T>, ContactError<T>> {
         self.checked(self.loaded(load, misalignment)?)
@@ -228,8 +229,11 @@ impl<T: Real> FiniteRoller<T> {
 
     /// Returns the state under a load, perhaps beyond the table.
     fn loaded(&self, load: T, misalignment: T) -> Result<RollerState<T>, ContactError<T>> {
-        valid(load)?;
         let nearest = self.nearest(misalignment)?;
+        if load.is_zero() {
+            return Ok(self.pressed(load, misalignment, nearest));
+        }
+        valid(load)?;
         let pressed = |largest| self.pressed(largest, misalignment, nearest);
         let bracket = Bracket::new(T::zero(), self.alone(load));
         let value = |largest| {
@@ -271,18 +275,9 @@ impl<T: Real> FiniteRoller<T> {
     /// approach at the middle would lose its digits where the misalignment is steep.
     fn pressed(&self, largest: T, misalignment: T, nearest: T) -> RollerState<T> {
         let zero = T::zero();
-        let apart = |approach| SpringPoint {
-            approach,
-            load: zero,
-            stiffness: zero,
-            half_contact: zero,
-            peak: Some(zero),
-        };
         let slice = |[z, relief]: &[T; 2]| {
             let approach = largest - (*relief - misalignment * *z - nearest);
-            let touches = approach > zero;
-            let point = if touches { self.table.continued(approach) } else { apart(approach) };
-            RollerSlice { z: *z, point }
+            RollerSlice { z: *z, point: self.table.continued(approach) }
         };
         let slices: Vec<_> = self.slices.iter().map(slice).collect();
         let total = |of: fn(&RollerSlice<T>) -> T| {
@@ -301,7 +296,8 @@ impl<T: Real> FiniteRoller<T> {
         let is_below = |approach: T| approach > zero && approach < least.approach;
         let below = slices.iter().filter(|slice| is_below(slice.point.approach)).count();
         let below = least.load * (self.length * (T::count(below) / T::count(slices.len())));
-        let (approach, error) = (largest + nearest, self.table.error() + below / load);
+        let below = if load > zero { self.table.touch_error() * below / load } else { zero };
+        let (approach, error) = (largest + nearest, self.table.error() + below);
         RollerState { approach, misalignment, load, moment, stiffness, error, slices }
     }
 

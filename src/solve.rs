@@ -7,6 +7,7 @@
 //! served by a [search of one limit at a time](one_by_one).
 
 mod active_set;
+mod apart;
 mod bending;
 mod by_load;
 mod capacity;
@@ -150,6 +151,10 @@ fn find_checked<'b, T: Real>(
     let kernel = bending::kernel(contact, control)?;
     let repeated = contact.repeated(work.cost)?;
     let contact = repeated.as_deref().unwrap_or(contact);
+    if let Some(apart) = apart::find(contact, control, work)? {
+        let row = repeated.as_ref().map(|row| Box::new(row.gap.clone()));
+        return certified(contact, apart, row, work);
+    }
     let (mut found, bent) = match kernel {
         None => (find_under(contact, control, work)?, None),
         Some(kernel) => {
@@ -173,8 +178,19 @@ fn find_checked<'b, T: Real>(
     if found.is_doubtful() {
         work.workspace.report.doubt();
     }
+    certified(contact, found, bent, work)
+}
+
+/// Returns the contact found, once certified if that was asked for.
+fn certified<'b, T: Real>(
+    contact: &Contact<'b, T>,
+    found: ContactState<T>,
+    bent: Option<Box<Gap<'b, T>>>,
+    work: &Work<'_, T>,
+) -> Result<Found<'b, T>, ContactError<T>> {
     if contact.certified {
-        certify(Solved { gap: &gap, integrator, kappa: contact.kappa, found: &found })?;
+        let gap = &bent.as_deref().unwrap_or(&contact.gap).tilted(found.tilt);
+        certify(Solved { gap, integrator: work.integrator, kappa: contact.kappa, found: &found })?;
     }
     Ok((found, bent))
 }

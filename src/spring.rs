@@ -5,7 +5,8 @@
 //! derivatives, at chosen loads. Between the points, the logarithms of these quantities are cubic
 //! in the logarithm of the approach δ (Hermite): for power laws, such as the exponent 10/9 of
 //! ISO/TS 16281, two points suffice. If two test solves between two points show an error above the
-//! tolerance, a point is added between them.
+//! tolerance, a point is added between them. From first touch to the first point the quantities are
+//! powers of the approach.
 
 use crate::real::same;
 use crate::solution::Approaching;
@@ -27,6 +28,10 @@ const STEEPEST: f64 = 0.211_324_865_405_187_1;
 
 /// Safety factor on the observed errors, since they may be half of the largest.
 const SAFETY_FACTOR: f64 = 2.0;
+
+/// Loads below the first one at which the powers are tested, as shares of it: the error of the load
+/// is largest at about a third.
+const LIGHTER_SHARES: [f64; 3] = [0.5, 0.25, 0.05];
 
 /// Ratio of the steepest slope to the largest value of the error of a cubic, which goes like
 /// `t² (1 - t)²`. A kink between two tests shows in the slopes.
@@ -75,6 +80,7 @@ pub struct SpringTable<T> {
     points: Vec<Node<T>>,
     error: T,
     stiffness_error: T,
+    touch_error: T,
 }
 
 /// Point with the data of the cubics: the derivatives of ln F, ln L and ln p₀ by ln δ.
@@ -84,6 +90,22 @@ struct Node<T> {
     #[cfg_attr(feature = "serde", serde(flatten))]
     point: SpringPoint<T>,
     exponents: [T; 3],
+}
+
+impl<T: Real> Node<T> {
+    /// Returns the state at another approach, by powers of it.
+    fn at(self, approach: T) -> SpringPoint<T> {
+        let Self { mut point, exponents } = self;
+        if !same(point.approach, approach) {
+            let ratio = approach / point.approach;
+            point.load *= ratio.powf(exponents[0]);
+            point.stiffness = exponents[0] * point.load / approach;
+            point.half_contact *= ratio.powf(exponents[1]);
+            point.peak = point.peak.map(|peak| peak * ratio.powf(exponents[2]));
+            point.approach = approach;
+        }
+        point
+    }
 }
 
 /// Reads the points of a table.
@@ -153,7 +175,20 @@ impl<T: Real> SpringTable<T> {
         let mut solver = Solver::new();
         let mut solve = |load| node(&solver.solve(contact, Control::Load(load))?, references);
         let (first, last) = (solve(least)?, solve(largest)?);
-        let mut table = Self { points: vec![first], error: T::zero(), stiffness_error: T::zero() };
+        let (zero, mut touch_error) = (T::zero(), T::zero());
+        for share in LIGHTER_SHARES.map(T::of) {
+            let off = match solve(share * least) {
+                Ok(Node { point, .. }) => {
+                    (first.at(point.approach).load - point.load).abs() / least
+                }
+                // Corners may not hold so light a load.
+                Err(ContactError::Solve(_)) => T::one(),
+                Err(error) => return Err(error),
+            };
+            touch_error = touch_error.max(T::of(SAFETY_FACTOR) * off);
+        }
+        let points = vec![first];
+        let mut table = Self { points, error: zero, stiffness_error: zero, touch_error };
         let mut pending = vec![[first, last]];
         while let Some([from, to]) = pending.pop() {
             let ratio = to.point.load / from.point.load;
@@ -196,32 +231,39 @@ impl<T: Real> SpringTable<T> {
         self.stiffness_error
     }
 
-    /// Returns the state at an approach within the table, whose ends may be passed by rounding.
+    /// Returns the largest error of the load below the first point, as a share of the load of this
+    /// point: twice the observed error, or more than 1 where corners do not hold a lighter load.
+    /// There the state goes to zero as powers of the approach.
+    pub fn touch_error(&self) -> T {
+        self.touch_error
+    }
+
+    /// Returns the state at an approach up to that of the last point, which may be passed by
+    /// rounding. At an approach of zero and below the bodies are apart, and all but the approach is
+    /// zero.
     ///
     /// # Errors
     /// [`EvaluationError::OutsideTable`].
     pub fn at(&self, approach: T) -> Result<SpringPoint<T>, ContactError<T>> {
         let range = self.range();
         let rounding = T::of(4.0) * T::epsilon() * range[1];
-        if !(approach >= range[0] - rounding && approach <= range[1] + rounding) {
+        // NaN is not known either.
+        let is_known = approach <= range[1] + rounding;
+        if !is_known {
             return Err(EvaluationError::OutsideTable { approach, range }.into());
         }
-        Ok(self.nearest(approach).point)
+        Ok(self.continued(approach.min(range[1])))
     }
 
-    /// Returns the state at any positive approach: beyond the ends of the table, load, half-width
-    /// and peak go on as powers of the approach.
+    /// Returns the state at any approach: beyond the last point, too, load, half-width and peak go
+    /// on as powers of the approach.
     pub(crate) fn continued(&self, approach: T) -> SpringPoint<T> {
-        let Node { mut point, exponents } = self.nearest(approach);
-        if !same(point.approach, approach) {
-            let ratio = approach / point.approach;
-            point.load *= ratio.powf(exponents[0]);
-            point.stiffness = exponents[0] * point.load / approach;
-            point.half_contact *= ratio.powf(exponents[1]);
-            point.peak = point.peak.map(|peak| peak * ratio.powf(exponents[2]));
-            point.approach = approach;
+        if approach <= T::zero() {
+            let zero = T::zero();
+            let (load, stiffness, half_contact, peak) = (zero, zero, zero, Some(zero));
+            return SpringPoint { approach, load, stiffness, half_contact, peak };
         }
-        point
+        self.nearest(approach).at(approach)
     }
 
     /// Returns an approach, that of the last point or more, at which the continued table has at

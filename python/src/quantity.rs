@@ -36,6 +36,7 @@ quantities! {
     "max_shear_depth" MaxShearDepth
     "approach" Approach
     "stiffness" Stiffness
+    "separation" Separation
     "contacts" Contacts
     "limits_error" LimitsError
     "half_width_deviation" HalfWidthDeviation
@@ -120,8 +121,8 @@ impl<'s, T: Real> Asked<'s, T> {
         once(&self.uncertainty, || self.solution.uncertainty())
     }
 
-    /// Returns the value of a quantity; NaN for an error of limits that were given, and for lengths
-    /// without references.
+    /// Returns the value of a quantity; NaN for an error of limits that were given, for lengths
+    /// without references, and for what bodies that are apart do not have.
     pub fn value(&self, quantity: Quantity) -> Result<T, ContactError<T>> {
         let (solution, nan) = (self.solution, T::of(f64::NAN));
         Ok(match quantity {
@@ -135,6 +136,8 @@ impl<'s, T: Real> Asked<'s, T> {
             Quantity::PeakPressure => self.peak()?.pressure,
             Quantity::PeakX => self.peak()?.x,
             Quantity::Moment => solution.moment()?,
+            // Bodies that lift off in a sweep are no failure.
+            Quantity::CentreOfPressure if solution.is_apart() => nan,
             Quantity::CentreOfPressure => solution.centre_of_pressure()?,
             Quantity::MaxShear => self.shear()?.value,
             Quantity::MaxShearX => self.shear()?.x,
@@ -147,8 +150,14 @@ impl<'s, T: Real> Asked<'s, T> {
                 Some(references) => solution.stiffness(references)?,
                 None => nan,
             },
+            Quantity::Separation => solution.separation(),
             Quantity::Contacts => T::of(solution.intervals().len() as f64),
             Quantity::LimitsError => solution.limits_error().unwrap_or(nan),
+            Quantity::HalfWidthDeviation | Quantity::PeakPressureDeviation
+                if solution.is_apart() =>
+            {
+                nan
+            }
             Quantity::HalfWidthDeviation => self.uncertainty()?.half_width,
             Quantity::PeakPressureDeviation => self.uncertainty()?.peak_pressure,
             Quantity::IsChecked => T::of(f64::from(u8::from(solution.report().is_checked()))),

@@ -366,6 +366,11 @@ impl SpringTable {
         self.0.stiffness_error()
     }
 
+    #[getter]
+    fn touch_error(&self) -> f64 {
+        self.0.touch_error()
+    }
+
     fn points(&self, py: Python<'_>) -> Columns {
         columns(py, self.0.points())
     }

@@ -46,6 +46,7 @@ fn outcome(outcome: Outcome) -> &'static str {
         Outcome::Merged => "merged",
         Outcome::Lost => "lost",
         Outcome::ReachedCorner => "reached_corner",
+        Outcome::Apart => "apart",
         Outcome::NotFound => "not_found",
         _ => "other",
     }
@@ -187,6 +188,16 @@ impl Solution {
     #[getter]
     fn is_checked(&self) -> bool {
         self.0.report().is_checked()
+    }
+
+    #[getter]
+    fn is_apart(&self) -> bool {
+        self.0.is_apart()
+    }
+
+    #[getter]
+    fn separation(&self) -> f64 {
+        self.0.separation()
     }
 
     #[getter]

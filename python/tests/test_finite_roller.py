@@ -97,6 +97,14 @@ def test_pictures() -> None:
             corners.plot(units=units)
 
 
+def test_apart() -> None:
+    state = CYLINDER.at(-0.001)
+    assert state.load == 0.0 and state.moment == 0.0 and not np.any(state.loads) and not np.any(state.pressures)
+    assert CYLINDER.under_load(0.0).approach == 0.0
+    spring = TABLE.at([-1.0, 0.0])
+    assert not np.any(spring.load) and not np.any(spring.stiffness) and 0.0 < TABLE.touch_error < 0.1
+
+
 # Made without types: a type checker would find these.
 ANY: Any = lc
 
@@ -119,7 +127,7 @@ def test_mistakes() -> None:
     for length in (0.0, -1.0, math.nan, math.inf):
         with pytest.raises(lc.errors.InvalidRollerError):
             lc.FiniteRoller(TABLE, length)
-    for load in (0.0, -1.0, math.nan, math.inf):
+    for load in (-1.0, math.nan, math.inf):
         with pytest.raises(lc.errors.InvalidLoadError):
             CYLINDER.under_load(load)
     with pytest.raises(lc.errors.InvalidMomentError):

@@ -22,7 +22,9 @@ use super::References;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Control<T> {
-    /// Load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.)
+    /// Load per unit length F = ∫ P dx: force/length. (The paper gives C = π F.) Under a load of
+    /// zero, bodies whose edges are free just touch
+    /// ([`Solution::is_apart`](crate::Solution::is_apart)).
     Load(T),
     /// Half-width L = (a + b)/2, a length; of several contacts, from the first limit to the last.
     HalfWidth(T),
@@ -34,7 +36,8 @@ pub enum Control<T> {
     /// [materials](crate::Contact::materials) must be known, and the approach must grow with the
     /// load.
     Approach {
-        /// δ: a length, positive.
+        /// δ: a length. At zero and below, bodies whose edges are free are apart by -δ
+        /// ([`Solution::is_apart`](crate::Solution::is_apart)).
         approach: T,
         /// Points of the bodies between which δ is measured.
         references: References<T>,

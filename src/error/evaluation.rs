@@ -40,28 +40,27 @@ pub enum EvaluationError<T: Real> {
     },
     /// The table of a spring does not cover this approach.
     #[error(
-        "the table covers approaches from {}, not {}: make it for a wider range of loads (apart, the bodies bear none)",
+        "the points of the table have approaches from {}, not {}: make it for larger loads",
         span(range[0], range[1]), apart(*approach, range)
     )]
     OutsideTable {
         /// Approach as given.
         approach: T,
-        /// Least and largest approach in the table.
+        /// Least and largest approach of the points of the table.
         range: [T; 2],
     },
     /// The table of a spring does not cover the slice of a roller that is pressed most.
     #[error(
-        "the slice at z = {}, pressed most, has an approach of {}, and the table covers those from {}: {}",
-        six(*z), apart(*approach, range), span(range[0], range[1]),
-        if *approach < range[0] { "make it from smaller loads on (apart, the bodies bear none)" }
-        else { "make it for larger loads, or lower approach, load or misalignment" }
+        "the slice at z = {}, pressed most, has an approach of {}, and the points of the table those from {}: \
+         make it for larger loads, or lower approach, load or misalignment",
+        six(*z), apart(*approach, range), span(range[0], range[1])
     )]
     SliceOutsideTable {
         /// Place of the slice along the axis, from the middle of the roller: a length.
         z: T,
         /// Approach of this slice, the largest of all.
         approach: T,
-        /// Least and largest approach in the table.
+        /// Least and largest approach of the points of the table.
         range: [T; 2],
     },
     /// A point is not inside the contact, or not outside it, as required.

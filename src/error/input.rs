@@ -1,7 +1,7 @@
 //! Errors of the input.
 
 use super::ReferenceError;
-use super::advice::{along, lost_digits};
+use super::advice::{along, lost_digits, sign_of};
 use crate::profile::SplineError;
 use crate::rounded::{apart, six, span};
 use crate::{Body, Edge, Interval, PiecewiseError, ProfileError, Real};
@@ -44,14 +44,16 @@ pub enum InputError<T: Real> {
         upper: [T; 2],
     },
     /// The load, half-width, peak pressure or approach asked for is not finite, or so small that it
-    /// has lost digits, or not positive. A load needs to be positive only where limits are sought
-    /// without adhesion.
+    /// has lost digits, or not positive. With adhesion, and in an interval that is not checked, a
+    /// load may have any sign; of bodies that may lift off, a load of zero and an approach of zero
+    /// or less leave them apart.
     #[error(
-        "the {quantity} is {value}: it must be finite, and positive where limits are sought{}",
-        lost_digits(*value), value = six(*value)
+        "the {quantity} is {value}: it must be finite, and {}{}",
+        sign_of(quantity), lost_digits(*value), value = six(*value)
     )]
     InvalidLoad {
-        /// Quantity asked for: `load`, `half-width`, `peak pressure` or `approach`.
+        /// Quantity asked for: `load`, `load between two corners`, `half-width`, `peak pressure` or
+        /// `approach`.
         quantity: &'static str,
         /// Its value.
         value: T,

@@ -419,6 +419,9 @@ impl<'s, T: Real> Approaching<'s, T> {
 
     /// Returns dδ/dF: with ∂P/∂F any contact may be the first.
     pub fn rate(&self) -> Result<T, ContactError<T>> {
+        if self.solved.found.apart.is_some() {
+            return Ok(T::one() / T::zero());
+        }
         let (rates, contacts) = (LoadRates::of(self.solved)?, self.solved.contacts());
         let bend = self.solved.gap.bend();
         if let ([on], None) = (contacts, bend) {
@@ -466,6 +469,9 @@ impl<'s, T: Real> Approaching<'s, T> {
     }
 
     pub fn of_all(&self) -> Result<Approach<T>, ContactError<T>> {
+        if let Some(separation) = self.solved.found.apart {
+            return Ok(Approach { bodies: -separation, lower: T::zero(), upper: T::zero() });
+        }
         let integrals = Integrals::new(self.solved)?;
         let [smooth, bent] = self.smooth(&integrals)?;
         let first = self.first()?;

@@ -107,6 +107,13 @@ fn undecided<T: Real>(x: T, Cost { evaluations, samples, .. }: Cost) -> ContactE
 pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, ContactError<T>> {
     let Solved { gap, kappa, found, .. } = solved;
     let ContactState { interval: hull, free, adhesive, .. } = *found;
+    let ends = followed(found.ends, hull);
+    let by_default = (ends.right - ends.left) * T::of(LONGEST_CELL);
+    let spacing = gap.resolution().map_or(by_default, |w| by_default.min(T::of(WIDTHS) * w));
+    let mut cells = Cells::new(gap, spacing);
+    if found.apart.is_some() {
+        return apart(found, gap, cells);
+    }
     // With Eq. (6) the strength left at an edge says no more than at a free one.
     let at_end = Ends { left: hull.left <= found.ends.left, right: hull.right >= found.ends.right };
     let at_corner = Ends::from_fn(|side| !free[side] && !adhesive[side] && at_end[side]);
@@ -114,14 +121,10 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     if found.is_doubtful() {
         return Err(undecided(hull.left, Cost::default()));
     }
-    let ends = followed(found.ends, hull);
     let [from, to] = gap.range();
     let within = |on: &Interval<T>| Interval { left: on.left.max(from), right: on.right.min(to) };
     let contacts: Vec<_> = solved.contacts().iter().map(within).collect();
 
-    let by_default = (ends.right - ends.left) * T::of(LONGEST_CELL);
-    let spacing = gap.resolution().map_or(by_default, |w| by_default.min(T::of(WIDTHS) * w));
-    let mut cells = Cells::new(gap, spacing);
     let steepest = |&[least, most]: &[T; 2]| most.max(-least);
     let (mut rows, mut slopes, mut doubt) = (Vec::new(), Vec::new(), T::zero());
     for (i, on) in contacts.iter().enumerate() {
@@ -160,9 +163,23 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
         several.bear(load, &mut system);
     }
     let allowed = share * steepest * hull.half_width();
-    let state = Loaded { found, several: &several, system: &system, slopes: &slopes, allowed };
+    let pressed = Some((&several, &system));
+    let state = Loaded { found, contacts: &contacts, pressed, slopes: &slopes, allowed };
     let gap = state.outside([is_held, at_corner], &mut cells)?;
     Ok(Certificate { pressure, gap, spacing: cells.spacing, cost: cost + cells.cost() })
+}
+
+/// Certifies bodies that are apart: they are nowhere closer than where they would touch first.
+fn apart<T: Real>(
+    found: &ContactState<T>,
+    gap: &Gap<'_, T>,
+    mut cells: Cells<'_, T>,
+) -> Result<Certificate<T>, ContactError<T>> {
+    let (contacts, slopes) = (&[found.interval], &[[T::zero(); 2]]);
+    let allowed = ContactState::least_height(gap.range());
+    let state = Loaded { found, contacts, pressed: None, slopes, allowed };
+    let gap = state.outside([Ends::both(false); 2], &mut cells)?;
+    Ok(Certificate { pressure: None, gap, spacing: cells.spacing, cost: cells.cost() })
 }
 
 impl<T: Real> Loaded<'_, T> {
@@ -173,7 +190,7 @@ impl<T: Real> Loaded<'_, T> {
         [is_held, at_corner]: [Ends<bool>; 2],
         cells: &mut Cells<'_, T>,
     ) -> Result<Option<Extremum<T>>, ContactError<T>> {
-        let (found, contacts) = (self.found, self.several.contacts());
+        let (found, contacts) = (self.found, self.contacts);
         let ends = followed(found.ends, found.interval);
         let strengths = found.strengths.zip(is_held);
         let strengths = strengths.map(|(k, is_held)| if is_held { k } else { T::zero() });
@@ -313,6 +330,7 @@ mod tests {
             moment_derivatives: None,
             tilt: 0.0,
             ends,
+            apart: None,
         }
     }
 

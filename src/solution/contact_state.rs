@@ -38,9 +38,37 @@ pub(crate) struct ContactState<T> {
     pub tilt: T,
     /// Ends of the bodies: corners, or the ends of their common range.
     pub ends: Ends<T>,
+    /// Distance of bodies that are not pressed together, where they touch first: there the interval
+    /// has no width.
+    pub apart: Option<T>,
 }
 
 impl<T: Real> ContactState<T> {
+    /// Returns the state of bodies that no load presses together, at a distance where they touch
+    /// first.
+    pub fn apart(place: T, load: T, separation: T, ends: Ends<T>) -> Self {
+        Self {
+            interval: Interval { left: place, right: place },
+            load,
+            strengths: Ends::both(T::zero()),
+            free: Ends::both(true),
+            adhesive: Ends::both(false),
+            error: Some(T::zero()),
+            error_by_load: None,
+            load_error: None,
+            moment_derivatives: None,
+            tilt: T::zero(),
+            ends,
+            apart: Some(separation),
+        }
+    }
+
+    /// Returns the height by which two places of bodies over a range must differ to tell which
+    /// touches first: half the digits of the range.
+    pub fn least_height([from, to]: [T; 2]) -> T {
+        T::epsilon().sqrt() * (to - from)
+    }
+
     /// Returns the share of a usual value in the contacts below which a value counts as zero.
     pub fn zero_tolerance(&self) -> T {
         Self::rounding().max(self.open()).min(T::of(MAX_TOLERANCE))

@@ -21,6 +21,10 @@ fn interval<T: Real>(on: &Interval<T>, f: &mut Formatter<'_>) -> Result {
 impl<T: Real> Display for Solution<'_, T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let contacts = self.intervals();
+        if self.is_apart() {
+            let [by, x] = [self.separation(), self.a()].map(|length| rounded(length, f));
+            return write!(f, "apart by {by} at x = {x}, without load");
+        }
         match contacts.len() {
             1 => f.write_str("contact ")?,
             several => write!(f, "{several} contacts ")?,
@@ -61,6 +65,13 @@ impl<T: Real> Display for Solution<'_, T> {
             None => f.write_str("\nlimits given, ")?,
         }
         f.write_str(if self.report().is_checked() { "checked" } else { "not checked" })?;
+        self.warn(f)
+    }
+}
+
+impl<T: Real> Solution<'_, T> {
+    /// Writes a line for each corner that would have to pull, and for bodies unlike half-planes.
+    fn warn(&self, f: &mut Formatter<'_>) -> Result {
         for side in Side::BOTH {
             let (x, strength) = (self.hull()[side], self.edge_singularities()[side]);
             if !self.found.adhesive[side]

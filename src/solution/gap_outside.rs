@@ -45,14 +45,18 @@ impl<T: Real> Solved<'_, T> {
     pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
         let x = self.gap.folded(x);
         let (edge, _) = self.nearest_edge(x)?;
+        let separation = self.found.apart.unwrap_or(T::zero());
         let beyond = x - edge;
         if beyond.is_zero() {
-            return Ok(T::zero());
+            return Ok(separation);
         }
         let mut sampler = Sampler::default();
         let [from, to] = self.gap.range();
         let at_edge = sampler.height(self.gap, edge.max(from).min(to))?;
         let bodies = sampler.height(self.gap, x)? - at_edge;
+        if self.found.apart.is_some() {
+            return Ok(bodies + separation);
+        }
         let [pushed] = Integrals::new(*self)?
             .over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
         Ok(bodies - pushed / self.kappa)
@@ -65,6 +69,9 @@ impl<T: Real> Solved<'_, T> {
             return if free { Ok(T::zero()) } else { Err(EvaluationError::Singular { x }.into()) };
         }
         let bodies = Sampler::default().slope(self.gap, x)?;
+        if self.found.apart.is_some() {
+            return Ok(bodies);
+        }
         let pull = Pressure::new(*self)?.cauchy_transform()?.at(x, T::zero())[0].re;
         Ok(bodies - pull / self.kappa)
     }

@@ -26,6 +26,21 @@ impl<T: Real> Solution<'_, T> {
         self.solved().contacts()
     }
 
+    /// Tells whether no load presses the bodies together: they touch in a point, or are apart by
+    /// their [`separation`](Self::separation). There are then no [`intervals`](Self::intervals) and
+    /// no pressure, and the limits `-b` and `a` are both the place where the bodies touch first.
+    #[must_use]
+    pub fn is_apart(&self) -> bool {
+        self.found.apart.is_some()
+    }
+
+    /// Returns the least distance of the bodies along y, a length: the approach asked for, if it
+    /// was negative, with the other sign; otherwise 0.
+    #[must_use]
+    pub fn separation(&self) -> T {
+        self.found.apart.unwrap_or(T::zero())
+    }
+
     /// Returns the load per unit length F, of all contacts.
     pub fn load(&self) -> T {
         self.found.load

@@ -132,14 +132,14 @@ impl<T: Real> LoadRates<T> {
     /// Returns the derivatives of a contact, of bodies with a layer or another kernel, too: the
     /// bend changes with the load.
     pub(crate) fn of(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
-        let held = Self::new(solved);
-        let Some(bend) = solved.gap.bend() else { return held };
+        let held = Self::new(solved)?;
+        let Some(bend) = solved.gap.bend() else { return Ok(held) };
         let Some(spreads) = punch(bend.kernel_of_bodies(), solved.contacts(), false) else {
             let why = "the equation of a punch on the bodies is singular";
             return Err(EvaluationError::NoLoadDerivative { why }.into());
         };
         // A limit moves by the strength of the punch there.
-        let Self { mut limits, punch, .. } = held?;
+        let Self { mut limits, punch, .. } = held;
         for (i, (rates, spread)) in limits.iter_mut().zip(&spreads).enumerate() {
             let held = match &punch {
                 Touching::Several(response) => Ends::from_fn(|side| response.strength(i, side)),
@@ -161,6 +161,9 @@ impl<T: Real> LoadRates<T> {
         let Solved { found, kappa, .. } = solved;
         let on = found.interval;
         let refuse = |why| Err(EvaluationError::NoLoadDerivative { why }.into());
+        if found.apart.is_some() {
+            return refuse("the bodies are not pressed together, and have no limits");
+        }
         if found.adhesive != Ends::both(false) {
             return refuse("an adhesive edge moves with a singular pressure");
         }

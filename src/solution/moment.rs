@@ -5,8 +5,12 @@ use super::pressure_integral::Integrals;
 use crate::{ContactError, InputError, Interval, Real, Solution, SolveError};
 
 impl<T: Real> Solution<'_, T> {
-    /// Returns the mean pressure: F over the widths of all contacts, `F/(a + b)` for a single one.
+    /// Returns the mean pressure: F over the widths of all contacts, `F/(a + b)` for a single one;
+    /// zero if the bodies are [apart](Self::is_apart).
     pub fn mean_pressure(&self) -> T {
+        if self.is_apart() {
+            return T::zero();
+        }
         let half = |sum: T, on: &Interval<T>| sum + on.half_width();
         self.load() / (T::of(2.0) * self.intervals().iter().fold(T::zero(), half))
     }
@@ -44,6 +48,9 @@ impl<T: Real> Solved<'_, T> {
     /// Returns the moment over the half-width, a force per unit length: the moment may overflow
     /// where the centre of pressure does not.
     pub fn moment_by_half_width(&self) -> Result<T, ContactError<T>> {
+        if self.found.apart.is_some() {
+            return Ok(T::zero());
+        }
         let on = self.found.interval;
         let (centre, half_width) = (on.centre(), on.half_width());
         let share = |distance: T, strength: T| [-(distance / half_width) * strength];

@@ -64,6 +64,9 @@ impl<T: Real> Solution<'_, T> {
 
 impl<T: Real> Solved<'_, T> {
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
+        if self.found.apart.is_some() {
+            return Ok(Peak { x: self.found.interval.left, pressure: T::zero() });
+        }
         self.integrator.complete(self.gap)?;
         let (x, top) = self.largest_pressure(&mut Cost::default())?;
         Ok(Peak { x, pressure: top.value })

@@ -58,7 +58,8 @@ impl<'p, T: Real> Pressure<'p, T> {
     /// Prepares the pressure, and takes the samples still missing.
     pub(crate) fn new(solved: Solved<'p, T>) -> Result<Self, ContactError<T>> {
         let Solved { gap, integrator, kappa, found } = solved;
-        let cost = integrator.complete(gap)?;
+        let contacts = solved.contacts();
+        let cost = if contacts.is_empty() { Cost::default() } else { integrator.complete(gap)? };
         let ContactState {
             interval: on, load, free, error, load_error, strengths, adhesive, ..
         } = *found;
@@ -68,7 +69,6 @@ impl<'p, T: Real> Pressure<'p, T> {
             |(glued, strength): (bool, T)| if glued { strength.abs() * error } else { T::zero() };
         let held = adhesive.zip(strengths).map(held);
         let load_case = LoadCase { kappa, load, free };
-        let contacts = solved.contacts();
         Ok(Self { gap, integrator, load_case, on, contacts, load_error, held, cost })
     }
 }

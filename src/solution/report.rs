@@ -89,6 +89,9 @@ pub enum Outcome {
     Lost,
     /// Contact that reached a corner.
     ReachedCorner,
+    /// Bodies that no load presses together, or that are apart
+    /// ([`Solution::is_apart`](crate::Solution::is_apart)).
+    Apart,
     /// Failure: no limits were found.
     NotFound,
 }
@@ -144,7 +147,8 @@ impl Report {
     /// Tells whether the solution was checked, and is the contact as far as the checks can see.
     #[must_use]
     pub fn is_checked(&self) -> bool {
-        self.attempts().last().is_some_and(|attempt| attempt.outcome == Outcome::Passed)
+        let is_checked = |at: &Attempt| matches!(at.outcome, Outcome::Passed | Outcome::Apart);
+        self.attempts().last().is_some_and(is_checked)
     }
 }
 

@@ -64,6 +64,9 @@ impl<'s, T: Real> Solved<'s, T> {
 
     /// Returns the contacts, from left to right.
     pub fn contacts(&self) -> &'s [Interval<T>] {
-        self.integrator.contacts(&self.found.interval)
+        match self.found.apart {
+            Some(_) => &[],
+            None => self.integrator.contacts(&self.found.interval),
+        }
     }
 }

@@ -81,8 +81,8 @@ impl<T: Real> Solution<'_, T> {
     /// ```
     #[must_use]
     pub fn conformity(&self) -> Option<Conformity<T>> {
-        let (free, several) = (self.found.free, self.intervals().len() > 1);
-        if several || self.gap.bend().is_some() || !(free.left && free.right) {
+        let (free, is_one) = (self.found.free, self.intervals().len() == 1);
+        if !is_one || self.gap.bend().is_some() || !(free.left && free.right) {
             return None;
         }
         let (hull, mut sampler) = (self.hull(), Sampler::default());

@@ -156,7 +156,8 @@ impl<T: Real> Stress<T> {
 pub struct Subsurface<'p, T: Real> {
     solution: &'p Solution<'p, T>,
     pressure: Pressure<'p, T>,
-    transform: CauchyTransform<T>,
+    /// `None` of bodies that are apart.
+    transform: Option<CauchyTransform<T>>,
     /// Layer on this body.
     layered: Option<Box<Layered<T>>>,
     /// Period of both bodies, and loads at places in it.
@@ -240,7 +241,7 @@ impl<T: Real> Solution<'_, T> {
         }
         Ok(Subsurface {
             solution: self,
-            transform: pressure.cauchy_transform()?,
+            transform: if self.is_apart() { None } else { Some(pressure.cauchy_transform()?) },
             pressure,
             layered,
             row,
@@ -353,11 +354,15 @@ impl<T: Real> Subsurface<'_, T> {
         if !(x.is_finite() && depth.is_finite() && depth >= T::zero()) {
             return Err(EvaluationError::AboveSurface { x, depth }.into());
         }
+        let zero = T::zero();
+        let Some(transform) = &self.transform else {
+            return Ok([Stress { sigma_x: zero, sigma_y: zero, tau_xy: zero }; 2]);
+        };
         // All digits of the depth are lost there.
         if depth <= T::epsilon().powi(3) * self.hull().half_width() {
-            return self.on_surface(x, with_traction);
+            return self.on_surface(transform, x, with_traction);
         }
-        let ([pull, by_depth], half) = (self.potential(x, depth), T::of(0.5));
+        let ([pull, by_depth], half) = (self.potential(transform, x, depth), T::of(0.5));
         let a0 = half * (by_depth.re - pull.im);
         let a1 = half * by_depth.im;
         let (a2, a3) = (-half * (by_depth.re + pull.im), pull.re - a1);
@@ -367,8 +372,8 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     /// Returns W and `y W'` of all periods.
-    fn potential(&self, x: T, depth: T) -> [Complex<T>; 2] {
-        let [mut pull, mut by_depth] = self.transform.at(x, depth);
+    fn potential(&self, transform: &CauchyTransform<T>, x: T, depth: T) -> [Complex<T>; 2] {
+        let [mut pull, mut by_depth] = transform.at(x, depth);
         if let Some((row, loads)) = &self.row {
             for &[s, load] in loads {
                 let [value, slope] = row.below(x - s, depth);
@@ -379,7 +384,12 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     /// Returns the limits of both stresses as the depth goes to zero.
-    fn on_surface(&self, x: T, with_traction: bool) -> Result<[Stress<T>; 2], ContactError<T>> {
+    fn on_surface(
+        &self,
+        transform: &CauchyTransform<T>,
+        x: T,
+        with_traction: bool,
+    ) -> Result<[Stress<T>; 2], ContactError<T>> {
         let touches = self.solution.intervals().iter().any(|on| x >= on.left && x <= on.right);
         let mut pressure = [T::zero()];
         if Interval::find(self.solution.intervals(), x).1.is_some() {
@@ -387,7 +397,7 @@ impl<T: Real> Subsurface<'_, T> {
             // Next to an edge a rule without panels has no correct digit.
             if self.solution.integrator.panels().is_none() && pressure[0].is_finite() {
                 let depth = T::epsilon().powi(3) * self.hull().half_width();
-                pressure = [-T::frac_1_pi() * self.transform.at(x, depth)[0].im];
+                pressure = [-T::frac_1_pi() * transform.at(x, depth)[0].im];
             }
         }
         let [pressure] = pressure;
@@ -403,7 +413,7 @@ impl<T: Real> Subsurface<'_, T> {
             let bent = gap.bend().map_or(T::zero(), |bend| bend.slope(x));
             self.solution.kappa * Sampler::default().slope(gap, x.max(from).min(to))? + bent
         } else {
-            self.potential(x, T::zero())[0].re
+            self.potential(transform, x, T::zero())[0].re
         };
         let zero = T::zero();
         let along = T::of(2.0) * T::frac_1_pi() * pull;

@@ -34,6 +34,7 @@ impl<T: Real> ContactState<T> {
             moment_derivatives: m.derivatives,
             tilt,
             ends,
+            apart: None,
         }
     }
 
@@ -87,6 +88,7 @@ mod tests {
             moment_derivatives: None,
             tilt: 0.0,
             ends: Ends { left: -1.0, right: 1.0 },
+            apart: None,
         };
         let held = Ends { left: false, right: true };
         for corner in [Edge::Fixed(-1.0), Edge::FreeUntil(-1.0)] {

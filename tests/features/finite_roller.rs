@@ -31,7 +31,7 @@ fn iso(approach: f64) -> String {
 fn law(points: [String; 2]) -> Result<SpringTable<f64>, serde_json::Error> {
     let [first, last] = points;
     serde_json::from_str(&format!(
-        r#"{{"points": [{first}, {last}], "error": 0.0, "stiffness_error": 0.0}}"#
+        r#"{{"points": [{first}, {last}], "error": 0.0, "stiffness_error": 0.0, "touch_error": 0.0}}"#
     ))
 }
 

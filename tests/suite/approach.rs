@@ -434,7 +434,7 @@ fn what_cannot_be_answered_is_refused() {
         );
     }
     let contact = with(STEEL, STEEL);
-    for approach in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+    for approach in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let error = contact.solve(control(approach)).unwrap_err();
         assert!(
             matches!(

@@ -21,6 +21,7 @@ mod several_bench;
 mod tasks_bench;
 
 mod accuracy;
+mod apart;
 mod approach;
 mod bad_input;
 mod certificate;

@@ -94,7 +94,7 @@ fn what_makes_no_table_is_refused() {
         Err(ContactError::Solve(SolveError::DomainTooShort { .. }))
     ));
     let table = table([0.01, 0.1], 1e-3).unwrap();
-    for approach in [0.0, 1.0, f64::NAN] {
+    for approach in [1.0, f64::INFINITY, f64::NAN] {
         assert!(matches!(
             table.at(approach),
             Err(ContactError::Evaluation(EvaluationError::OutsideTable { .. }))
@@ -105,8 +105,37 @@ fn what_makes_no_table_is_refused() {
     assert!((table.at(ends[ends.len() - 1]).unwrap().load / 0.1 - 1.0).abs() < 1e-14);
     // An end that was worked out anew may be off by rounding.
     let last = ends[ends.len() - 1];
-    for (end, off) in [(ends[0], -f64::EPSILON), (last, f64::EPSILON)] {
-        assert_eq!(table.at(end * (1.0 + off)).unwrap(), table.at(end).unwrap());
-        assert!(table.at(end * (1.0 + 1e6 * off)).is_err());
+    assert_eq!(table.at(last * (1.0 + f64::EPSILON)).unwrap(), table.at(last).unwrap());
+    assert!(table.at(last * (1.0 + 1e6 * f64::EPSILON)).is_err());
+}
+
+#[test]
+fn a_table_starts_at_touch() {
+    let circle: Profile = Box::new(Ellipse::circle(1.0, [-1.5, 1.5]).unwrap());
+    for (edges, linear) in [([Edge::Free; 2], false), ([Edge::Fixed(-0.1), Edge::Fixed(0.1)], true)]
+    {
+        let contact = steel(Contact::new(&Flat, &*circle).unwrap().edges(edges[0], edges[1]));
+        let table = SpringTable::new(&contact, &REFERENCES, [0.1, 0.5], 1e-6).unwrap();
+        let first = table.points().next().unwrap();
+        for approach in [0.0, -1e-300, -0.3, f64::NEG_INFINITY] {
+            let apart = table.at(approach).unwrap();
+            assert_eq!([apart.load, apart.stiffness, apart.half_contact], [0.0; 3]);
+            assert_eq!((apart.approach, apart.peak), (approach, Some(0.0)));
+        }
+        let mut most = 0.0f64;
+        for i in 1..200 {
+            let load = 0.1 * 0.93f64.powi(i);
+            // The corners of a punch on a circle need a load.
+            let Ok(solution) = contact.solve(Control::Load(load)) else { continue };
+            let approach = solution.approach(&REFERENCES).unwrap().bodies;
+            let off = (table.at(approach).unwrap().load - load).abs() / first.load;
+            most = most.max(off);
+        }
+        println!("{most:.1e} of {:.1e}", table.touch_error());
+        assert!(most <= table.touch_error() + 1e-13, "{most:e} of {:e}", table.touch_error());
+        assert!(linear || most > 1e-4);
+        // Continuous at the first point.
+        let [below, above] = [1.0 - 1e-9, 1.0 + 1e-9].map(|share| table.at(share * first.approach));
+        assert!((below.unwrap().load / above.unwrap().load - 1.0).abs() < 1e-8);
     }
 }

@@ -129,7 +129,7 @@ def _rows(scene: Scene, controls: Sequence[Mapping[str, Any]], yield_stress: flo
 def _written(given: argparse.Namespace, scene: Scene, rows: Sequence[Row]) -> int:
     """Writes the files that are asked for."""
     units = [scene.units.get(quantity, "") for quantity in ("length", "pressure", "load")]
-    loads = [row.solution.load for row in rows if row.solution is not None]
+    loads = [row.solution.load for row in rows if row.solution and not row.solution.is_apart]
     title = scene.title or "Line contact"
     for path, write in (
         (given.csv, lambda path: write_csv(path, rows, {"angle": "rad", **scene.units})),

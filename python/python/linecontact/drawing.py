@@ -35,9 +35,9 @@ def svg(solution: Solution) -> str:
     """Draws the pressure over x, with the limits, the load and the largest pressure."""
     on = solution.hull
     x, pressures = solution.sample(49)
-    top = float(np.max(pressures, initial=0.0)) or 1.0
-    across = (_WIDTH - 2 * _MARGIN) / (on.right - on.left)
-    up = (_HEIGHT - 2 * _MARGIN) / top
+    top = float(np.max(pressures, initial=0.0))
+    across = (_WIDTH - 2 * _MARGIN) / ((on.right - on.left) or 1.0)
+    up = (_HEIGHT - 2 * _MARGIN) / (top or 1.0)
     base = _HEIGHT - _MARGIN
     left, right = _MARGIN, _WIDTH - _MARGIN
     place = [
@@ -112,6 +112,33 @@ def plot_roller(state: RollerState, units: Sequence[str]) -> Figure:
     return figure
 
 
+def _draw_bodies(axes: Axes, x: FloatArray, heights: tuple[FloatArray, FloatArray], lengths: str) -> None:
+    """Draws both bodies over x."""
+    lower, upper = heights
+    axes.plot(x, upper, color="#08519c", label="upper body")
+    axes.plot(x, lower, color="#a63603", label="lower body")
+    axes.set_ylabel(f"y before loading{lengths}")
+    axes.legend(loc="best")
+
+
+def _plot_apart(solution: Solution, lengths: str) -> Figure:
+    """Draws bodies that are apart, all that they have in common."""
+    figure = _figure(3.2)
+    axes, contact = figure.subplots(), solution.contact
+    x = np.linspace(*common_range(contact), 401)
+    lower, upper = before_loading(contact, x)
+    _draw_bodies(axes, x, (lower, upper + solution.separation), lengths)
+    axes.set_title(str(solution).splitlines()[0])
+    axes.set_xlabel(f"x{lengths}")
+    return figure
+
+
+def common_range(contact: Contact) -> tuple[float, float]:
+    """Returns the range of x that both bodies cover."""
+    ends = [np.sort(body.at(body.domain)[0]) for body in (contact.lower, contact.upper)]
+    return max(float(left) for left, _ in ends), min(float(right) for _, right in ends)
+
+
 def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = None) -> Figure:
     """Draws bodies, pressure and subsurface shear, one below the other over the same x.
 
@@ -123,16 +150,15 @@ def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = No
     lengths, pressures = (f" / {unit}" if unit else "" for unit in units[:2])
     on, contact = solution.hull, solution.contact
     beside = 2 * BESIDE * on.half_width
-    x = np.linspace(on.left - beside, on.right + beside, 401)
     of_each: Sequence[tuple[Side | None, float]] = [("lower", np.inf)] if slip else bodies_below(contact)
+    if solution.is_apart:
+        return _plot_apart(solution, lengths)
+    x = np.linspace(on.left - beside, on.right + beside, 401)
     figure = _figure(5.3 + 2.7 * len(of_each))
     bodies, pressure, *shears = figure.subplots(2 + len(of_each), 1, sharex=True)
 
     lower, upper = before_loading(contact, x, solution.tilt)
-    bodies.plot(x, upper, color="#08519c", label="upper body")
-    bodies.plot(x, lower, color="#a63603", label="lower body")
-    bodies.set_ylabel(f"y before loading{lengths}")
-    bodies.legend(loc="best")
+    _draw_bodies(bodies, x, (lower, upper), lengths)
     title = str(solution).splitlines()[0]
     bodies.set_title(title if slip is None else f"{title}, force {slip.force:.6g}")
 

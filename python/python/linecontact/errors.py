@@ -201,12 +201,14 @@ class InvalidLoadError(InputError):
     """The load, half-width, peak pressure or approach asked for is not finite, or so small that it
     has lost digits, or not positive.
 
-    A load needs to be positive only where limits are sought without adhesion.
+    With adhesion, and in an interval that is not checked, a load may have any sign; of bodies that
+    may lift off, a load of zero and an approach of zero or less leave them apart.
 
     Attributes
     ----------
     quantity : str
-        Quantity asked for: `load`, `half-width`, `peak pressure` or `approach`.
+        Quantity asked for: `load`, `load between two corners`, `half-width`, `peak pressure` or
+        `approach`.
     value : float
         Its value.
     """
@@ -1270,7 +1272,7 @@ class OutsideTableError(EvaluationError):
     approach : float
         Approach as given.
     range : tuple[float, float]
-        Least and largest approach in the table.
+        Least and largest approach of the points of the table.
     """
 
     approach: float
@@ -1287,7 +1289,7 @@ class SliceOutsideTableError(EvaluationError):
     approach : float
         Approach of this slice, the largest of all.
     range : tuple[float, float]
-        Least and largest approach in the table.
+        Least and largest approach of the points of the table.
     """
 
     z: float

@@ -20,7 +20,7 @@ from ._numbers import FloatArray, Numbers, Range, one_of
 from .below import bodies, materials
 from .bodies import Body
 from .contact import Contact, Material, contact_modulus
-from .drawing import BESIDE, before_loading
+from .drawing import BESIDE, before_loading, common_range
 from .errors import LineContactError, SingularError
 from .slipping import PartialSlip, Side, acting, slipped_again
 from .solution import Solution
@@ -132,7 +132,7 @@ def explore(
     if wanted.size == 0 or not np.all(np.isfinite(wanted)):
         raise ValueError("give at least one load, and finite ones")
     below = _below(contact, body)
-    reach = _reach(contact)
+    reach = common_range(contact)
     solved = _solved(contact, wanted.tolist(), None if friction is None else along)
     spans = [_window(_normal(one), reach) for one in solved.values() if not isinstance(one, LineContactError)]
     window = min((left for left, _ in spans), default=0.0), max((right for _, right in spans), default=0.0)
@@ -169,7 +169,9 @@ def _solved(
     for load in loads:
         try:
             wanted = "load", [load], None
-            found[load] = contact.solve(load=load) if along is None else slipped_again(contact, wanted, along)
+            one = contact.solve(load=load) if along is None else slipped_again(contact, wanted, along)
+            is_apart = _normal(one).is_apart
+            found[load] = LineContactError("apart: no load presses the bodies together") if is_apart else one
         except LineContactError as error:
             found[load] = error
     return found
@@ -178,12 +180,6 @@ def _solved(
 def _normal(solved: Solution | PartialSlip) -> Solution:
     """Returns the solution under the load alone."""
     return solved.normal if isinstance(solved, PartialSlip) else solved
-
-
-def _reach(contact: Contact) -> Range:
-    """Returns the range of x that both bodies cover."""
-    ends = [np.sort(body.at(body.domain)[0]) for body in (contact.lower, contact.upper)]
-    return max(float(left) for left, _ in ends), min(float(right) for _, right in ends)
 
 
 def _window(solution: Solution, reach: Range) -> Range:

@@ -46,7 +46,7 @@ def write_npz(path: Path, rows: Sequence[Row]) -> None:
     body has a layer, each body has stresses of its own: `lower_sigma_x`, at `lower_depth`.
     """
     arrays: dict[str, Any] = {name: [row.numbers[name] for row in rows] for name in NUMBERS} | _places(rows)
-    fields = [_fields(row.solution) if row.solution else {} for row in rows]
+    fields = [_fields(row.solution) if row.solution and not row.solution.is_apart else {} for row in rows]
     for name, like in next(filter(None, fields), {}).items():
         arrays[name] = [field.get(name, np.full_like(like, np.nan)) for field in fields]
     with path.open("wb") as file:
@@ -63,7 +63,7 @@ def write_vtk(path: Path, rows: Sequence[Row]) -> None:
     for number, row, body, deepest in [
         (number, row, *of)
         for number, row in enumerate(rows, 1)
-        for of in (bodies(row.solution.contact) if row.solution else ())
+        for of in (bodies(row.solution.contact) if row.solution and not row.solution.is_apart else ())
     ]:
         assert row.solution is not None
         field = _field(row.solution, body, deepest)

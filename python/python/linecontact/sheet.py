@@ -23,6 +23,7 @@ NUMBERS = {
     "left": ("length", "contact from"),
     "right": ("length", "contact to"),
     "half_width": ("length", "half-width"),
+    "apart_by": ("length", "apart by"),
     "centre_of_pressure": ("length", "centre of pressure"),
     "peak_pressure": ("pressure", "largest pressure"),
     "mean_pressure": ("pressure", "mean pressure"),
@@ -97,6 +98,8 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
     to = control.get("references", scene.references)
     numbers.update(load=solution.load, left=-solution.b, right=solution.a, half_width=solution.half_width)
     numbers.update(mean_pressure=solution.mean_pressure)
+    if solution.is_apart:
+        numbers.update(apart_by=solution.separation)
     if solution.limits_error is not None:
         numbers.update(limits_error=solution.limits_error)
     if solution.tilt != 0.0:
@@ -126,7 +129,7 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
         note(lambda: [solution.approach(to).bodies], "approach")
         note(lambda: [solution.stiffness(to)], "stiffness")
     if yield_stress is not None:
-        numbers.update({f"safety_{of}": yield_stress / numbers[of] for of in ("von_mises", "tresca")})
+        numbers.update({f"safety_{of}": yield_stress / (numbers[of] or math.nan) for of in ("von_mises", "tresca")})
     for name in ("centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
         numbers[name] = 0.0 if abs(numbers[name]) < _ROUNDING * solution.half_width else numbers[name]
     named = {name: words for name, words in places.items() if words}
@@ -205,6 +208,9 @@ def _notes(row: Row, units: dict[str, str]) -> list[str]:
     """Returns the errors of a solution, and the doubts that it leaves."""
     numbers, solution = row.numbers, row.solution
     assert solution is not None
+
+    if solution.is_apart:
+        return [_line("note", "no load presses the bodies together")]
 
     def text(name: str) -> str:
         return f"{numbers[name]:.1g} {units[NUMBERS[name][0]]}".rstrip()

@@ -468,6 +468,20 @@ class Solution:
         return tuple(Interval(*on) for on in self._found.intervals)
 
     @property
+    def is_apart(self) -> bool:
+        """True if no load presses the bodies together: they touch in a point, or are apart.
+
+        Then there are no intervals and no pressure, and both limits are the place where the bodies
+        touch first.
+        """
+        return self._found.is_apart
+
+    @property
+    def separation(self) -> float:
+        """Least distance of the bodies, a length: 0 unless they are apart."""
+        return self._found.separation
+
+    @property
     def load(self) -> float:
         """Load per unit length, of all contacts: force/length."""
         return self._found.load
@@ -901,6 +915,8 @@ class Solution:
         return f"{self._found}\nκ is 1, as no modulus and no materials were given"
 
     def __repr__(self) -> str:
+        if self.is_apart:
+            return f"<Solution: apart by {self.separation:.6g}>"
         contacts = ", ".join(f"[{on.left:.6g}, {on.right:.6g}]" for on in self.intervals)
         count = len(self.intervals)
         which = "contact" if count == 1 else f"{count} contacts"

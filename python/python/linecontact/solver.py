@@ -173,12 +173,24 @@ class SpringTable:
         return self._table.stiffness_error
 
     @property
+    def touch_error(self) -> float:
+        """Largest error of the load below the first point, as a share of the load there.
+
+        There the state goes to zero as powers of the approach. More than 1 where corners do not
+        hold a lighter load.
+        """
+        return self._table.touch_error
+
+    @property
     def points(self) -> SpringPoints:
         """Solved points, by rising approach."""
         return SpringPoints(*self._table.points())
 
     def at(self, approach: float | Numbers) -> SpringPoints:
-        """Returns the states at approaches within the table: lengths."""
+        """Returns the states at approaches up to the last point: lengths.
+
+        At an approach of zero and below the bodies are apart, and bear nothing.
+        """
         places = as_numbers(approach, "approach")
 
         def shaped(column: FloatArray) -> Any:

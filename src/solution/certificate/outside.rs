@@ -27,11 +27,12 @@ const MAX_CELLS: usize = 1 << 16;
 /// slope.
 const MAX_OF_RISE: f64 = 1e-2;
 
-/// Contacts under load.
+/// Contacts under load, or the place of first touch of bodies that are apart.
 pub(super) struct Loaded<'c, T: Real> {
     pub found: &'c ContactState<T>,
-    pub several: &'c Several<T>,
-    pub system: &'c System<T>,
+    pub contacts: &'c [Interval<T>],
+    /// Pressures of the contacts; `None` of bodies that are apart.
+    pub pressed: Option<(&'c Several<T>, &'c System<T>)>,
     /// Least and largest slope of the bodies in each contact.
     pub slopes: &'c [[T; 2]],
     /// Largest overlap that counts as zero.
@@ -66,10 +67,11 @@ pub(super) struct OutsideOf<'o, T: Real> {
 
 impl<'o, T: Real> OutsideOf<'o, T> {
     pub fn new(of: &'o Loaded<'o, T>, contact: usize, side: Side, falls: bool) -> Self {
-        let ([height, y, pending], [worst, closest, falling]) = ([T::zero(); 3], [None; 3]);
+        let height = of.found.apart.unwrap_or(T::zero());
+        let ([y, pending], [worst, closest, falling]) = ([T::zero(); 2], [None; 3]);
         let (open, cells) = (false, 0);
-        let is_held = of.several.held()[contact][side];
-        let blind = of.found.blind(of.several.contacts()[contact]);
+        let is_held = of.pressed.is_some_and(|(several, _)| several.held()[contact][side]);
+        let blind = of.found.blind(of.contacts[contact]);
         let blind = if is_held { blind } else { T::zero() };
         Self {
             of,
@@ -93,7 +95,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
     }
 
     fn on(&self) -> Interval<T> {
-        self.of.several.contacts()[self.contact]
+        self.of.contacts[self.contact]
     }
 
     fn edge(&self) -> T {
@@ -106,13 +108,16 @@ impl<'o, T: Real> OutsideOf<'o, T> {
 
     /// Returns the reduction of the slope of the gap by the pressure at a distance.
     fn pull(&self, distance: T) -> T {
-        self.of.several.pull(self.of.system, self.contact, self.side, distance)
+        self.of.pressed.map_or(T::zero(), |(several, system)| {
+            several.pull(system, self.contact, self.side, distance)
+        })
     }
 
     /// Follows the gap from the edge to a place.
     pub fn follow(&mut self, end: T, cells: &mut Cells<'_, T>) -> Result<(), ContactError<T>> {
         let edge = self.edge();
-        let places = cells.places(edge, end, self.on().half_width());
+        let first = if self.of.pressed.is_some() { self.on().half_width() } else { cells.spacing };
+        let places = cells.places(edge, end, first);
         let mut row = cells.over(&places)?;
         // Without the last cell: at the end of a body the slope may be infinite.
         let last = places.len() - 1;

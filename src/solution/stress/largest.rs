@@ -3,7 +3,7 @@
 use super::super::peak::{places, rises};
 use super::super::pressure_integral::Density;
 use super::{Stress, StressPeak, Subsurface, checked_ratio};
-use crate::{ContactError, EvaluationError, InputError, Interval, Real, Side};
+use crate::{ContactError, EvaluationError, Interval, Real, Side};
 use std::cmp::Ordering;
 
 /// Number of abscissae and of depths on the first grid.
@@ -139,8 +139,8 @@ impl<T: Real> Subsurface<'_, T> {
                 }
             }
         }
-        let value = self.solution.load();
-        best.ok_or(ContactError::Input(InputError::InvalidLoad { quantity: "load", value }))
+        let [x, zero] = [self.hull().left, T::zero()];
+        Ok(best.unwrap_or(StressPeak { x, depth: zero, value: zero }))
     }
 
     /// Lists places on the surface of a contact: its grid of pressures, and the places where stress

@@ -356,6 +356,7 @@ impl<T: Real> NewtonSeveral<T> {
             moment_derivatives: None,
             tilt: self.tilt,
             ends: conditions.ends,
+            apart: None,
         }
     }
 

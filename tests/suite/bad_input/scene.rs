@@ -15,6 +15,10 @@ fn loads_scales_and_edges() {
     ];
     for value in [NAN, INF, -INF, 0.0, -0.0, -1.0, -TINY] {
         for (name, says, way) in ways {
+            // Without load the bodies are apart, and that is no fault.
+            if value == 0.0 && name == "Load" {
+                continue;
+            }
             table.solve(&format!("{name}({value:e})"), 0, &contact, way(value), |wrong| {
                 matches!(wrong, Wrong::Input(InputError::InvalidLoad { quantity, value: v })
                     if *quantity == says && same(*v, value))

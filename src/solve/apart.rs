@@ -1,0 +1,66 @@
+//! Bodies that no load presses together: they touch in a point, or are apart.
+//!
+//! A follower that lifts off bears no force, which is an answer and not a fault: under no load, or
+//! at an approach of zero or less, there are no limits to be sought, only the place where the
+//! bodies would touch first.
+
+use super::first_contact::first_contact;
+use super::{Contact, Control, Work};
+use crate::gap::{Asked, Sampler};
+use crate::solution::{Approaching, ContactState, Outcome, Solved, Start};
+use crate::{ContactError, Edge, Interval, Real, SolveError};
+
+/// Returns the state of bodies that are not pressed together under a control; `None` if they are,
+/// or if an edge may pull or is held.
+pub(super) fn find<T: Real>(
+    contact: &Contact<'_, T>,
+    control: Control<T>,
+    work: &mut Work<'_, T>,
+) -> Result<Option<ContactState<T>>, ContactError<T>> {
+    let (load, separation) = match control {
+        Control::Load(load) if load.is_zero() => (load, T::zero()),
+        Control::Approach { approach, .. } if approach <= T::zero() && approach.is_finite() => {
+            (T::zero(), -approach)
+        }
+        _ => return Ok(None),
+    };
+    let edges = contact.checked_edges()?;
+    let may_lift = |edge| matches!(edge, Edge::Free | Edge::FreeUntil(_));
+    if contact.edge_pressure.is_some() || !edges.into_iter().all(may_lift) {
+        return Ok(None);
+    }
+    let place = first_touch(contact, work)?;
+    let found = ContactState::apart(place, load, separation, contact.ends());
+    if let Control::Approach { references, .. } = control {
+        let (gap, kappa, integrator) = (&contact.gap, contact.kappa, &*work.integrator);
+        let solved = Solved { gap, integrator, kappa, found: &found };
+        Approaching::new(solved, contact.elasticity()?, &references)?;
+    }
+    work.workspace.report.end(Start::LowestGap, Ok((Outcome::Apart, Some(found))))
+}
+
+/// Finds the place where the bodies touch first. Of two that are as low as the heights tell, it is
+/// either.
+fn first_touch<T: Real>(
+    contact: &Contact<'_, T>,
+    work: &mut Work<'_, T>,
+) -> Result<T, ContactError<T>> {
+    let (gap, ends) = (&contact.gap, contact.ends());
+    // Heights as close as under a load that would flatten half the digits of the bodies.
+    let aside = ContactState::least_height(gap.range());
+    let look = work.workspace.look(gap, Asked::Load(aside), work.cost)?;
+    let lowest = look.lowest();
+    let around = Interval { left: lowest - aside, right: lowest + aside };
+    // At the end of a body, or a corner, no slope passes through zero.
+    if !(around.left > ends.left && around.right < ends.right) {
+        return Ok(lowest.max(ends.left).min(ends.right));
+    }
+    let mut sampler = Sampler::default();
+    let found = first_contact(&mut sampler, gap, Some(around));
+    *work.cost += sampler.cost;
+    match found {
+        // The middle of a flat will do.
+        Err(ContactError::Solve(SolveError::NoFirstContact { .. })) => Ok(lowest),
+        found => found,
+    }
+}
