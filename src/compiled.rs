@@ -55,6 +55,9 @@ macro_rules! entries {
         load_rates(of: &Solution<'_, Self>) -> LoadRates<Self> = LoadRates::of(of.solved());
         approach(of: &Solution<'_, Self>, to: &References<Self>) -> Approach<Self>
             = Approaching::new(of.solved(), of.elasticity, to)?.of_all();
+        displacement(
+            of: &Solution<'_, Self>, body: Body, x: Self, to: &References<Self>,
+        ) -> Self = Approaching::new(of.solved(), of.elasticity, to)?.of_surface(body, x);
         approach_rate(of: &Solution<'_, Self>, to: &References<Self>) -> Self
             = Approaching::new(of.solved(), of.elasticity, to)?.rate();
         subsurface<'s>(of: &'s Solution<'_, Self>, body: Option<Body>) -> Subsurface<'s, Self>

@@ -63,7 +63,8 @@ use crate::kernel::{Bend, Periodic, RegularKernel, wavenumbers};
 use crate::material::Elasticity;
 use crate::quadrature::{Engine, Panels};
 use crate::{
-    ContactError, InputError, Interval, Real, Reference, References, Side, Solution, SolveError,
+    Body, ContactError, InputError, Interval, Real, Reference, References, Side, Solution,
+    SolveError,
 };
 
 /// Distances by which two bodies come together under load.
@@ -153,6 +154,44 @@ impl<T: Real> Solution<'_, T> {
     /// As [`approach`](Self::approach), and those of [`load_rates`](Self::load_rates).
     pub fn stiffness(&self, references: &References<T>) -> Result<T, ContactError<T>> {
         Ok(T::one() / T::approach_rate(self, references)?)
+    }
+}
+
+impl<T: Real> Solution<'_, T> {
+    /// Returns the displacement of the surface of a body by the pressure, at any x, beside the
+    /// contact and beyond the ends of the bodies, too: a length along y, into the body. It is that
+    /// against the body's [reference](References), zero there, and `Approach::lower` or
+    /// `Approach::upper` at the x of the references.
+    ///
+    /// ```
+    /// use linecontact::profile::Parabola;
+    /// use linecontact::{
+    ///     Body, Contact, Control, Flat, Material, PlaneState, Reference, References,
+    /// };
+    ///
+    /// let roller = Parabola::new(10.0f64, [-1.0, 1.0])?;
+    /// let steel = Material::elastic(210e3, 0.3);
+    /// let contact = Contact::new(&Flat, &roller)?.materials(steel, steel, PlaneState::Strain);
+    /// let solution = contact.solve(Control::Load(500.0))?;
+    /// let depth = Reference::Depth(20.0);
+    /// let to = References { x: 0.0, lower: depth, upper: depth };
+    /// let [middle, limit] =
+    ///     [0.0, solution.a()].map(|x| solution.displacement(Body::Lower, x, &to));
+    /// // Half of the height of the roller at the limit: both bodies are alike.
+    /// let height = solution.a() * solution.a() / 20.0;
+    /// assert!(((middle? - limit?) / (0.5 * height) - 1.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`approach`](Self::approach); [`SolveError::OutsideBodies`] if x is not finite.
+    pub fn displacement(
+        &self,
+        body: Body,
+        x: T,
+        references: &References<T>,
+    ) -> Result<T, ContactError<T>> {
+        T::displacement(self, body, x, references)
     }
 }
 
@@ -475,17 +514,38 @@ impl<'s, T: Real> Approaching<'s, T> {
         let integrals = Integrals::new(self.solved)?;
         let [smooth, bent] = self.smooth(&integrals)?;
         let first = self.first()?;
-        let logarithm = self.logarithm(&integrals, &first)?;
+        let logarithm = self.logarithm(&integrals, Some(&first))?;
         let [lower, upper] = self.of_each([smooth[0] - bent[0], smooth[1] - bent[1]], logarithm);
         let bodies = self.of_bodies(&integrals, smooth, &first)?;
         Ok(Approach { bodies, lower, upper })
+    }
+
+    /// Returns the displacement of the surface of a body at any x towards its reference.
+    pub fn of_surface(&self, body: Body, x: T) -> Result<T, ContactError<T>> {
+        let Solved { gap, found, .. } = self.solved;
+        let x = gap.folded(x);
+        if !x.is_finite() {
+            return Err(SolveError::OutsideBodies { x, range: gap.range() }.into());
+        }
+        if found.apart.is_some() {
+            return Ok(T::zero());
+        }
+        let integrals = Integrals::new(self.solved)?;
+        let ([smooth, _], at) = (self.smooth(&integrals)?, Self { x, ..*self });
+        let bent = match gap.bend() {
+            Some(_) => at.smooth(&integrals)?[1],
+            None => [T::zero(); 2],
+        };
+        let logarithm = at.logarithm(&integrals, None)?;
+        let smooth = [smooth[0] - bent[0], smooth[1] - bent[1]];
+        Ok(self.of_each(smooth, logarithm)[body as usize])
     }
 
     /// Returns `∫ P ln|ξ| ds`.
     fn logarithm(
         &self,
         integrals: &Integrals<T, impl Density<T>>,
-        first: &First<T>,
+        known: Option<&First<T>>,
     ) -> Result<T, ContactError<T>> {
         let (x, contacts) = (self.x, self.solved.contacts());
         let Some(i) = contacts.iter().position(|on| x >= on.left && x <= on.right) else {
@@ -494,8 +554,10 @@ impl<'s, T: Real> Approaching<'s, T> {
             return integrals.over(x, logarithm).map(|[sum]| sum);
         };
         // Inside a contact the integral changes with x as the heights do.
-        let heights =
-            if i == first.contact { first.heights } else { UndeformedGap::new(self.solved, i, x)? };
+        let heights = match known {
+            Some(first) if first.contact == i => first.heights,
+            _ => UndeformedGap::new(self.solved, i, x)?,
+        };
         let rise = heights.at.unwrap_or(heights.mean) - heights.mean;
         Ok(self.mean_logarithm(integrals, contacts[i])? + self.solved.kappa * rise)
     }

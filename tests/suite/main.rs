@@ -36,6 +36,7 @@ mod corners;
 mod declared_convexity;
 mod default_solve;
 mod dents;
+mod displacement;
 mod display;
 mod edge_pressures;
 mod edges;
