@@ -89,7 +89,10 @@ fn evaluate(
         let part = found.get_item(i)?;
         let row = match part.extract::<PyReadonlyArray1<'_, f64>>() {
             Ok(row) if row.as_array().len() == k.len() => row,
-            _ => spread(&part, k.len()).map_err(|_| of_no_length(py, i, &part, k.len()))?,
+            _ => spread(&part, k.len()).map_err(|error| match is_complex(&part) {
+                true => error,
+                false => of_no_length(py, i, &part, k.len()),
+            })?,
         };
         let row = row.as_array();
         for (point, &value) in points.iter_mut().zip(row) {
@@ -138,10 +141,20 @@ fn of_no_length(py: Python<'_>, part: usize, found: &Bound<'_, PyAny>, count: us
     ))
 }
 
+fn is_complex(part: &Bound<'_, PyAny>) -> bool {
+    let numpy = part.py().import("numpy");
+    let found = numpy.and_then(|numpy| numpy.call_method1("iscomplexobj", (part,)));
+    found.is_ok_and(|found| found.is_truthy().unwrap_or(false))
+}
+
 /// Returns a number for all points, or an array of other numbers, as one of `float`.
 fn spread<'py>(part: &Bound<'py, PyAny>, count: usize) -> PyResult<PyReadonlyArray1<'py, f64>> {
     let py = part.py();
     let numpy = py.import("numpy")?;
+    if is_complex(part) {
+        let says = "the function of a Curve has returned complex numbers: give real ones";
+        return Err(PyTypeError::new_err(says));
+    }
     let float = [("dtype", "float64")].into_py_dict(py)?;
     let row = numpy.call_method("asarray", (part,), Some(&float))?;
     let row = numpy.call_method1("broadcast_to", (row, (count,)))?;

@@ -253,10 +253,12 @@ impl Solution {
         Ok((x, pressure))
     }
 
+    #[getter]
     fn moment(&self, py: Python<'_>) -> PyResult<f64> {
         call::library(py, || self.0.moment())
     }
 
+    #[getter]
     fn centre_of_pressure(&self, py: Python<'_>) -> PyResult<f64> {
         call::library(py, || self.0.centre_of_pressure())
     }
@@ -341,6 +343,18 @@ impl Solution {
         let to = references(to)?;
         let approach = call::library(py, || self.0.approach(&to))?;
         Ok((approach.bodies, approach.lower, approach.upper))
+    }
+
+    fn displacement(
+        &self,
+        py: Python<'_>,
+        x: Numbers<'_>,
+        to: ReferenceRow,
+        of: &str,
+    ) -> PyResult<Array> {
+        let (x, to, of) = (x.as_array().to_vec(), references(to)?, body(of)?);
+        let at = |x| self.0.displacement(of, x, &to);
+        Ok(call::array(py, call::library(py, || call::each(&x, at))?))
     }
 
     fn stiffness(&self, py: Python<'_>, to: ReferenceRow) -> PyResult<f64> {

@@ -1,5 +1,6 @@
 """Bodies that no load presses together."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import linecontact as lc
@@ -10,16 +11,16 @@ from linecontact.command import main
 STEEL = lc.Material(210e3, 0.3)
 ROLLER = lc.Ellipse.circle(10.0, (-1.0, 1.0))
 CONTACT = lc.Contact(lc.Flat(), ROLLER, materials=(STEEL, STEEL))
-TO = lc.References(0.0, lc.Depth(30.0), lc.Disc(10.0))
+TO = lc.References(0.0, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
 
 SCENE = """
 title = "A roller that lifts off"
 
 [lower]
-flat = {}
+shape = "flat"
 
 [upper]
-circle = { radius = 10.0, range = [-1.0, 1.0] }
+shape = { ellipse = { along = 10.0, across = 10.0, angles = [-1.5, 1.5] } }
 
 [stiffness]
 contact_modulus = 115e3
@@ -27,7 +28,7 @@ contact_modulus = 115e3
 
 
 @pytest.mark.parametrize("solve", [CONTACT.solve, lambda **control: lc.Solver().solve(CONTACT, **control)])
-def test_no_load_is_an_answer(solve: lc.Contact) -> None:
+def test_no_load_is_an_answer(solve: Callable[..., lc.Solution]) -> None:
     for control, separation in (({"load": 0.0}, 0.0), ({"approach": -0.25, "references": TO}, 0.25)):
         solution = solve(**control)
         assert solution.is_apart and solution.separation == separation and solution.is_checked
@@ -40,14 +41,14 @@ def test_no_load_is_an_answer(solve: lc.Contact) -> None:
         assert f"apart by {separation:g}" in str(solution) and "apart by" in repr(solution)
         assert "svg" in solution._repr_svg_()
         with pytest.raises(lc.errors.InvalidLoadError):
-            solution.centre_of_pressure()
+            solution.centre_of_pressure
     with pytest.raises(lc.errors.InvalidLoadError, match="single_interval"):
-        lc.solve(lc.Flat(), ROLLER, edges=(lc.fixed(-0.1), lc.fixed(0.1)), kappa=1.0, load=0.0)
+        lc.solve(lc.Flat(), ROLLER, edges=(lc.Edge.fixed(-0.1), lc.Edge.fixed(0.1)), kappa=1.0, load=0.0)
 
 
 def test_a_sweep_lifts_off() -> None:
     wanted = ["load", "separation", "peak_pressure", "stiffness", "centre_of_pressure", "contacts", "is_checked"]
-    found = lc.sweep(CONTACT, wanted, approach=[0.01, 0.0, -0.3], references=TO)
+    found = lc.sweep(CONTACT, quantities=wanted, approach=[0.01, 0.0, -0.3], references=TO)
     assert not found.errors and found["load"][0] > 0.0
     assert found["separation"].tolist() == [0.0, 0.0, 0.3] and found["load"][1:].tolist() == [0.0, 0.0]
     assert found["contacts"].tolist() == [1.0, 0.0, 0.0] and np.isnan(found["centre_of_pressure"][1:]).all()

@@ -20,7 +20,7 @@ import pytest
 from scenes import Array, example_four, example_three, gear
 
 import linecontact as lc
-from linecontact import _native
+from linecontact import _native, drawing
 
 FLAT = lc.Flat()
 BODY = lc.Parabola(1.0, (-1.0, 1.0))
@@ -487,6 +487,51 @@ def test_memory_stays_flat() -> None:
     assert resident() - before < 2_000_000
 
 
+# Displacements, and stresses by the materials.
+
+
+def test_displacement() -> None:
+    to = lc.References(0.1, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
+    solution = lc.solve(FLAT, BODY, materials=(STEEL, STEEL), half_width=0.1)
+    found = solution.displacement([[0.1, 0.0], [3.0, -1e3]], to, body="lower")
+    assert found.shape == (2, 2) and found[0, 0] == solution.displacement(0.1, to, body="lower")
+    np.testing.assert_allclose(found[0, 0], solution.approach(to).lower, rtol=1e-13)
+    opened = sum(solution.displacement(0.3, to, body=of) - solution.displacement(0.1, to, body=of) for of in ("lower", "upper"))
+    np.testing.assert_allclose(opened, solution.gap(0.3) - (0.3**2 - 0.1**2) / 2, rtol=1e-9)
+    with pytest.raises(ValueError, match="'lower' or 'upper'"):
+        solution.displacement(0.1, to, body="both")  # type: ignore[call-overload]
+
+
+def test_von_mises_takes_the_ratio_of_the_material() -> None:
+    rubber = lc.Material(210.0, 0.49)
+    both = lc.solve(FLAT, BODY, materials=(STEEL, rubber), half_width=0.1)
+    assert both.max_von_mises() == both.max_von_mises(body="lower") == both.max_von_mises(0.3)
+    assert both.max_von_mises(body="upper") == both.max_von_mises(0.49)
+    thin = lc.Contact(FLAT, BODY, materials=(STEEL, rubber), plane="stress").solve(half_width=0.1)
+    assert thin.max_von_mises() == thin.max_von_mises(0.0)
+    coated = lc.solve(FLAT, BODY, materials=(lc.Layer(rubber, 0.1, STEEL), STEEL), half_width=0.1)
+    assert coated.max_von_mises(body="lower", depths=(0.0, 0.1)) == coated.max_von_mises(
+        0.49, body="lower", depths=(0.0, 0.1)
+    )
+    with pytest.raises(ValueError, match=r"0\.49, 0\.3: name body and depths"):
+        coated.max_von_mises(body="lower")
+    with pytest.raises(ValueError, match="give poisson_ratio"):
+        lc.solve(FLAT, BODY, kappa=1.0, half_width=0.1).max_von_mises()
+    slip = lc.Contact(FLAT, BODY, materials=(STEEL, STEEL)).partial_slip(friction=0.4, force=10.0, load=100.0)
+    assert slip.max_von_mises("lower") == slip.max_von_mises("lower", 0.3)
+
+
+def test_complex_numbers_are_refused() -> None:
+    solution = lc.solve(FLAT, BODY, kappa=1.0, load=0.01)
+    for ask in (solution.pressure, solution.gap, solution.pressure_estimate, BODY.at, BODY.heights):
+        with pytest.raises(TypeError, match="complex"):
+            ask(np.array([0.1 + 0.2j]))
+    with pytest.raises(TypeError, match="complex"):
+        lc.Spline(np.array([[0.0, 1.0j], [1.0, 0.0], [2.0, 1.0], [3.0, 4.0]]))
+    with pytest.raises(TypeError, match="complex"):
+        lc.Curve((-1.0, 1.0), lambda k: (k, k**2 / 2 + 0.0j, 1.0, k))
+
+
 # Pictures.
 
 
@@ -532,6 +577,33 @@ def test_axes_show_units() -> None:
     for wrong in ("mm", ("mm",)):
         with pytest.raises(TypeError, match="names of the units"):
             lc.solve(FLAT, BODY, kappa=1.0, load=0.01).plot(units=wrong)
+
+
+def test_titles_show_load_and_peak_with_units() -> None:
+    solution = lc.solve(FLAT, BODY, kappa=1.0, load=0.01)
+    first, second = solution.plot(units=("mm", "MPa", "N/mm")).axes[0].get_title().split("\n")
+    assert first.startswith("contact [") and first.endswith(" mm")
+    assert second.startswith("load 0.01 N/mm, largest pressure ") and " MPa at x = " in second and second.endswith(" mm")
+    corners = lc.Edge.fixed(-1.0), lc.Edge.fixed(1.0)
+    punch = lc.solve(FLAT, FLAT, kappa=1.0, edges=corners, load=0.3)
+    assert "pressure infinite at x = " in punch.plot().axes[0].get_title()
+
+
+def test_measured_points_are_drawn() -> None:
+    x = np.linspace(-1.0, 1.0, 201)
+    spline = lc.Spline(np.column_stack([x, -(x**2) / 2]), smooth=True)
+    upper = spline.flipped().shifted(0.3, 0.2)
+    solution = lc.solve(FLAT, upper, kappa=1.0, load=0.01)
+    bodies_ = solution.plot().axes[0]
+    dots = next(line for line in bodies_.lines if line.get_label() == "measured")
+    places, heights = (np.asarray(part, dtype=float) for part in dots.get_data())
+    assert len(places) > 20 and np.all(np.abs(places - 0.3) < 1.0)
+    np.testing.assert_allclose(heights, (places - 0.3) ** 2 / 2, atol=1e-9)
+    turned = drawing.measured(spline.rotated(0.1).mirrored().scaled(2.0))
+    assert turned is not None and drawing.measured(BODY) is None
+    angle = np.pi - 0.1
+    z = 2.0 * (x + 0.5j * x**2) * np.exp(1.0j * angle)
+    np.testing.assert_allclose(turned, np.column_stack([z.real, z.imag]), atol=1e-12)
 
 
 def test_a_picture_of_partial_slip() -> None:

@@ -70,6 +70,8 @@ def as_numbers(given: Any, name: str) -> FloatArray:
     found = np.asarray(given)
     if found.dtype.kind in "US":
         raise TypeError(f"{name} is {given!r}: give numbers")
+    if found.dtype.kind == "c":
+        raise TypeError(f"{name} has complex numbers: give real ones")
     return np.asarray(found, dtype=np.float64)
 
 

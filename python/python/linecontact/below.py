@@ -50,6 +50,28 @@ def materials(contact: Contact) -> list[Below]:
     return [Below("", None, None, min((one.ratio for one in found if one.ratio is not None), default=None))]
 
 
+def ratio_below(contact: Contact, body: Side | None, depths: tuple[float, float] | None) -> float:
+    """Returns Poisson's ratio of the materials below a surface, which must have one in common."""
+    top, bottom = depths or (0.0, math.inf)
+    found = materials(contact)
+    meant = [
+        one.ratio
+        for one in found
+        if one.ratio is not None
+        and (body is None or one.body in (None, body))
+        and (one.depths is None or (one.depths[0] < bottom and float(np.nextafter(top, math.inf)) < one.depths[1]))
+    ]
+    if body is not None and found[0].body is None and contact._settings["materials"]:
+        # Of two half-planes one is named: its own ratio.
+        own = Material(*contact._settings["materials"][body == "upper"])
+        meant = [own.poisson_ratio * (contact._settings["plane"] == "strain")]
+    if not meant:
+        raise ValueError("the contact has no materials: give poisson_ratio")
+    if len(set(meant)) > 1:
+        raise ValueError(f"Poisson's ratios are {', '.join(map(repr, meant))}: name body and depths, or give poisson_ratio")
+    return meant[0]
+
+
 def bodies(contact: Contact) -> list[tuple[Side | None, float]]:
     """Returns the bodies that have a stress of their own, each with its largest depth."""
     depths = {one.body: one.depths[1] if one.depths else math.inf for one in materials(contact)}

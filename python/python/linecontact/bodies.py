@@ -111,7 +111,7 @@ class Body(Unchanging, ABC):
         >>> y
         array([0.  , 0.25])
         """
-        places = np.asarray(k, dtype=np.float64)
+        places = as_numbers(k, "k")
         x, y, dx, dy = (part.reshape(places.shape) for part in self._profile.at(places.reshape(-1)))
         return x, y, dx, dy
 
@@ -126,7 +126,7 @@ class Body(Unchanging, ABC):
         >>> lc.Parabola(2.0, (-1.0, 1.0)).heights([0.5, 3.0])
         array([0.0625,    nan])
         """
-        wanted = np.asarray(x, dtype=np.float64)
+        wanted = as_numbers(x, "x")
         low, high = (np.full(wanted.shape, end) for end in self.domain)
         ends, *_ = self.at(self.domain)
         rises = ends[1] > ends[0]

@@ -7,14 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .below import bodies as bodies_below
+from .bodies import Placed, Spline
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from typing import Any
 
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from ._numbers import FloatArray
+    from .bodies import Body
     from .contact import Contact
     from .finite_roller import RollerState
     from .slipping import PartialSlip, Side
@@ -121,6 +124,46 @@ def _draw_bodies(axes: Axes, x: FloatArray, heights: tuple[FloatArray, FloatArra
     axes.legend(loc="best")
 
 
+def _title(solution: Solution, units: Sequence[str], more: str) -> str:
+    """Returns contacts, load and largest pressure with their units."""
+    length, pressure, load = (f" {unit}" if unit else "" for unit in (*units, "")[:3])
+    contacts, loaded = str(solution).splitlines()[:2]
+    loaded, _, peak = loaded.partition(", ")
+    value, at, x = peak.partition(" at x = ")
+    peak = f"{value}{pressure}{at}{x}{length}" if "infinite" not in value else f"{peak}{length}"
+    return f"{contacts}{length}\n{loaded}{load}{more}, {peak}"
+
+
+def _draw_points(axes: Axes, contact: Contact, up: float, tilt: float) -> None:
+    """Draws the measured points of both bodies within the picture."""
+    left, right = axes.get_xlim()
+    for body, color, rise, turn in ((contact.upper, "#08519c", up, tilt), (contact.lower, "#a63603", 0.0, 0.0)):
+        points = measured(body)
+        if points is not None:
+            x, y = points[(points[:, 0] >= left) & (points[:, 0] <= right)].T
+            axes.plot(x, y + rise + turn * x, ".", color=color, markersize=3, label="measured")
+            axes.legend(loc="best")
+
+
+def measured(body: Body) -> FloatArray | None:
+    """Returns the measured points of a body as rows of x and y, placed as it is; None without any."""
+    if isinstance(body, Spline):
+        return body.points
+    if not isinstance(body, Placed) or not isinstance(body.body, Spline):
+        return None
+    z: Any = body.body.points @ (1.0, 1.0j)
+    for step, numbers in body.steps:
+        if step == "shifted":
+            z = z + complex(*numbers)
+        elif step == "rotated":
+            z = z * np.exp(1.0j * numbers[0])
+        elif step == "scaled":
+            z = z * numbers[0]
+        else:
+            z = np.conj(z) if step == "flipped" else -np.conj(z)
+    return np.column_stack([z.real, z.imag])
+
+
 def _plot_apart(solution: Solution, lengths: str) -> Figure:
     """Draws bodies that are apart, all that they have in common."""
     figure = _figure(3.2)
@@ -159,8 +202,8 @@ def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = No
 
     lower, upper = before_loading(contact, x, solution.tilt)
     _draw_bodies(bodies, x, (lower, upper), lengths)
-    title = str(solution).splitlines()[0]
-    bodies.set_title(title if slip is None else f"{title}, force {slip.force:.6g}")
+    _draw_points(bodies, contact, float(np.nanmax(upper - contact.upper.heights(x))), solution.tilt)
+    bodies.set_title(_title(solution, units, "" if slip is None else f", force {slip.force:.6g}"))
 
     places, values = solution.sample(257)
     for number, interval in enumerate(solution.intervals):

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._numbers import FloatArray, Numbers, Range, one_of
+from ._numbers import FloatArray, Numbers, Range, as_numbers, one_of
 from .below import bodies, materials
 from .bodies import Body
 from .contact import Contact, Material, contact_modulus
@@ -128,7 +128,7 @@ def explore(
     along = acting(0.0 if friction is None else friction, force, tension)
     if friction is None and any(along):
         raise TypeError("force and tension are carried by friction: give friction, too")
-    wanted = np.unique(np.asarray(loads, dtype=np.float64))
+    wanted = np.unique(as_numbers(loads, "loads"))
     if wanted.size == 0 or not np.all(np.isfinite(wanted)):
         raise ValueError("give at least one load, and finite ones")
     below = _below(contact, body)

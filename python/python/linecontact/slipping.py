@@ -152,8 +152,15 @@ class PartialSlip:
         """Returns the largest shear stress in the plane in one body, and its place."""
         return StressPeak(*self._found.max_shear(body))
 
-    def max_von_mises(self, body: Side, poisson_ratio: float) -> StressPeak:
-        """Returns the largest von Mises equivalent stress in one body, and its place."""
+    def max_von_mises(self, body: Side, poisson_ratio: float | None = None) -> StressPeak:
+        """Returns the largest von Mises equivalent stress in one body, and its place.
+
+        Poisson's ratio is by default that of its material.
+        """
+        from .below import ratio_below
+
+        if poisson_ratio is None:
+            poisson_ratio = ratio_below(self._contact, body, None)
         return StressPeak(*self._found.max_von_mises(body, poisson_ratio))
 
     def max_tension(self, body: Side) -> Extremum:

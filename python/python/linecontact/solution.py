@@ -668,7 +668,7 @@ class Solution:
 
     def pressure_estimate(self, x: float | Numbers) -> tuple[Any, Any]:
         """Returns pressures and their estimated errors: two pressures, or two arrays."""
-        places = np.asarray(x, dtype=np.float64)
+        places = as_numbers(x, "x")
         values, errors = self._found.pressure_estimate(places.reshape(-1))
         return _plain(values.reshape(places.shape)), _plain(errors.reshape(places.shape))
 
@@ -702,13 +702,15 @@ class Solution:
         """Mean pressure: the load over the widths of all contacts."""
         return self._found.mean_pressure
 
+    @property
     def moment(self) -> float:
-        """Returns the moment of the pressures about x = 0: a force."""
-        return self._found.moment()
+        """Moment of the pressures about x = 0: a force."""
+        return self._found.moment
 
+    @property
     def centre_of_pressure(self) -> float:
-        """Returns the x at which the load acts: a length."""
-        return self._found.centre_of_pressure()
+        """The x at which the load acts: a length. Without load it raises `InvalidLoadError`."""
+        return self._found.centre_of_pressure
 
     def contacts(self) -> tuple[ContactRegion, ...]:
         """Returns the data of each contact, from left to right.
@@ -825,7 +827,7 @@ class Solution:
 
     def max_von_mises(
         self,
-        poisson_ratio: float,
+        poisson_ratio: float | None = None,
         *,
         body: Side | None = None,
         depths: tuple[float, float] | None = None,
@@ -833,8 +835,9 @@ class Solution:
     ) -> StressPeak:
         """Returns the largest von Mises equivalent stress, and its place.
 
-        Body and depths are as for `max_shear`. Ask a layer and its base one by one if their ratios
-        differ.
+        Poisson's ratio is by default that of the material, of two half-planes the smaller one, the
+        worst. Body and depths are as for `max_shear`. Ask a layer and its base one by one if their
+        ratios differ.
 
         Examples
         --------
@@ -842,11 +845,15 @@ class Solution:
         >>> steel = lc.Material(210e3, 0.3)  # MPa; lengths in mm
         >>> coated = lc.Layer(lc.Material(400e3, 0.25), 3e-3, steel)
         >>> solution = lc.solve(lc.Flat(), lc.Parabola(1.0, (-0.1, 0.1)), materials=(coated, steel), half_width=9e-3)
-        >>> layer = solution.max_von_mises(0.25, body="lower", depths=(0.0, 3e-3))
-        >>> base = solution.max_von_mises(0.3, body="lower", depths=(3e-3, float("inf")))
+        >>> layer = solution.max_von_mises(body="lower", depths=(0.0, 3e-3))
+        >>> base = solution.max_von_mises(body="lower", depths=(3e-3, float("inf")))
         >>> layer.depth <= 3e-3 < base.depth
         True
         """
+        from .below import ratio_below
+
+        if poisson_ratio is None:
+            poisson_ratio = ratio_below(self.contact, body, depths)
         return StressPeak(*self._found.max_von_mises(body, depths, poisson_ratio, friction))
 
     def max_tension(self, *, body: Side | None = None, friction: float = 0.0) -> Extremum:
@@ -869,6 +876,38 @@ class Solution:
     def approach(self, references: References) -> Approach:
         """Returns the approach of the bodies: lengths. The contact must have materials."""
         return Approach(*self._found.approach(references))
+
+    @overload
+    def displacement(self, x: float, references: References, *, body: Side) -> float: ...
+    @overload
+    def displacement(self, x: Numbers, references: References, *, body: Side) -> FloatArray: ...
+    def displacement(self, x: float | Numbers, references: References, *, body: Side) -> float | FloatArray:
+        """Returns the displacement of the surface of a body by the pressure, into the body: a length.
+
+        It is that along y, against the reference of the body: zero there. The contact must have
+        materials.
+
+        Parameters
+        ----------
+        x : float or array_like
+            Lengths: in the contacts, beside them, and beyond the ends of the bodies.
+        references : References
+            As for `approach`.
+        body : {"lower", "upper"}
+            Body meant.
+
+        Examples
+        --------
+        >>> import linecontact as lc
+        >>> steel = lc.Material(210e3, 0.3)  # MPa; lengths in mm
+        >>> roller = lc.Ellipse.circle(10.0, (-1.0, 1.0))
+        >>> solution = lc.solve(lc.Flat(), roller, materials=(steel, steel), load=500.0)
+        >>> to = lc.References(0.0, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
+        >>> (1e3 * solution.displacement([0.0, 0.5, 2.0], to, body="lower")).round(3)
+        array([7.35 , 4.703, 2.752])
+        """
+        found: float | FloatArray = each(lambda x: self._found.displacement(x, references, body), x)
+        return found
 
     def stiffness(self, references: References) -> float:
         """Returns the stiffness dF/dδ, the derivative of the load by the approach: a pressure."""
@@ -937,8 +976,8 @@ class Solution:
         Parameters
         ----------
         units : (str, str), optional
-            Names of the units of lengths and pressures, to be shown at the axes, such as ("mm",
-            "MPa"). A third name, as `explore` takes it, is not used.
+            Names of the units of lengths and pressures, and of loads if there is a third, such as
+            ("mm", "MPa", "N/mm"): shown at the axes, and in the title.
 
         Returns
         -------
