@@ -76,7 +76,7 @@ pub(crate) enum Shape<'b, T: Real> {
 }
 
 impl<T: Real> Shape<'_, T> {
-    fn profile(&self) -> &dyn ParametricProfile<T> {
+    pub fn profile(&self) -> &dyn ParametricProfile<T> {
         match self {
             Self::Lent(profile) => *profile,
             Self::Owned(profile) => &**profile,

@@ -62,6 +62,7 @@ pub(crate) use pressure_integral::Integrals;
 pub use region::ContactRegion;
 pub use report::{Attempt, Outcome, Report, Start};
 pub(crate) use solved::Solved;
+pub(crate) use steepness::is_steep;
 pub use steepness::{Conformity, STEEPEST_HALF_PLANE};
 pub use summary::Summary;
 pub use uncertainty::Uncertainty;

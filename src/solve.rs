@@ -31,6 +31,7 @@ use crate::gap::{Asked, Cost, Gap};
 use crate::quadrature::{Engine, complete};
 use crate::solution::{ContactState, Outcome, Report, Solution, Solved, Start, certify};
 use crate::{ContactError, Edge, Ends, InputError, Interval, Real, SolveError};
+pub(crate) use apart::first_touch;
 use by_load::{ByApproach, HalfWidth, Peak};
 use edges::{Conditions, Given};
 use equations::Equations;

@@ -1,10 +1,10 @@
 //! Repeated solves: the next load, the next time step.
 
 use crate::contact::Control;
-use crate::gap::Cost;
+use crate::gap::{Cost, Sampler};
 use crate::quadrature::Engine;
 use crate::solution::{PartialSlip, Shear, Solution};
-use crate::solve::{Work, Workspace, find};
+use crate::solve::{Work, Workspace, find, first_touch};
 use crate::{Contact, ContactError, InputError, Real, SolveError};
 use std::sync::Arc;
 
@@ -91,6 +91,15 @@ impl<T: Real> Solver<T> {
                 found => return found,
             }
         }
+    }
+
+    /// Returns the place where two bodies would touch first, and the gap there before loading.
+    pub(crate) fn first_touch(
+        &mut self,
+        contact: &Contact<'_, T>,
+    ) -> Result<[T; 2], ContactError<T>> {
+        let x = first_touch(contact, &mut self.workspace, &mut Cost::default())?;
+        Ok([x, Sampler::default().height(&contact.gap, x)?])
     }
 
     /// Searches once, from the last contact or from scratch. Adds the cost of the search to

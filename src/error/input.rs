@@ -32,6 +32,22 @@ pub enum InputError<T: Real> {
         /// Fault of the profile.
         source: ProfileError<T>,
     },
+    /// Seen from body 1 of a [`Pair`](crate::Pair), body 2 is no body: it turns back, or its place
+    /// is not finite.
+    #[error(
+        "seen from body 1, body 2 is at x = {}, y = {}, turned by {}: {source}",
+        six(*x), six(*y), six(*angle)
+    )]
+    Pose {
+        /// Place of the origin of body 2 along body 1: a length.
+        x: T,
+        /// Its height above body 1: a length.
+        y: T,
+        /// Angle from body 1 to body 2, counter-clockwise: radians.
+        angle: T,
+        /// Fault of body 2 as it stands.
+        source: ProfileError<T>,
+    },
     /// The two bodies have no `x` in common.
     #[error(
         "the bodies lie beside each other: the lower covers x = {}, the upper {}; move one of them over the other",

@@ -97,22 +97,29 @@ impl<T: Real> Sampler<T> {
 
     /// Returns the height before the bodies are turned.
     pub(crate) fn height_untilted(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
-        let mut heights = [T::zero(); 2];
-        for (height, body) in heights.iter_mut().zip([Body::Lower, Body::Upper]) {
-            let (index, piece) = gap.piece_with(body, x, Side::Left)?;
-            let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
-            // Corrects for the residual of the inversion, which may be left at an end, too.
-            let missed = x - point.x;
-            *height =
-                point.y + if missed.is_zero() { missed } else { missed * point.dy / point.dx };
-            if !height.is_finite() {
-                let source = ProfileError::NotFinite { quantity: "Y", k, value: *height };
-                return Err(InputError::Profile { body, source }.into());
-            }
-        }
-        let [lower, upper] = heights;
+        let lower = self.body_height(gap, Body::Lower, x)?;
+        let upper = self.body_height(gap, Body::Upper, x)?;
         self.highest = self.highest.max(lower.abs()).max(upper.abs());
         Ok(upper - lower)
+    }
+
+    /// Returns the height of one of the bodies.
+    pub(crate) fn body_height(
+        &mut self,
+        gap: &Gap<'_, T>,
+        body: Body,
+        x: T,
+    ) -> Result<T, ContactError<T>> {
+        let (index, piece) = gap.piece_with(body, x, Side::Left)?;
+        let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
+        // Corrects for the residual of the inversion, which may be left at an end, too.
+        let missed = x - point.x;
+        let height = point.y + if missed.is_zero() { missed } else { missed * point.dy / point.dx };
+        if height.is_finite() {
+            return Ok(height);
+        }
+        let source = ProfileError::NotFinite { quantity: "Y", k, value: height };
+        Err(InputError::Profile { body, source }.into())
     }
 
     /// Measures the noise of the height of the gap at the place nearest to `x`.

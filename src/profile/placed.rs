@@ -113,7 +113,7 @@ impl<T: Real> Placement<T> {
         if self.is_upright() { [a * x, d * y] } else { [a * x + b * y, c * x + d * y] }
     }
 
-    fn point(&self, CurvePoint { x, y, dx, dy }: CurvePoint<T>) -> CurvePoint<T> {
+    pub(crate) fn point(&self, CurvePoint { x, y, dx, dy }: CurvePoint<T>) -> CurvePoint<T> {
         let ([x, y], [dx, dy]) = (self.apply([x, y]), self.direction([dx, dy]));
         CurvePoint { x, y, dx, dy }
     }

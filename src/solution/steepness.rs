@@ -47,6 +47,11 @@ impl<T: Real> Conformity<T> {
     }
 }
 
+/// Tells whether a slope exceeds that of half-planes.
+pub(crate) fn is_steep<T: Real>(slope: T) -> bool {
+    slope.abs() > T::of(STEEPEST_HALF_PLANE)
+}
+
 impl<T: Real> Solution<'_, T> {
     /// Tells whether the slope of the gap at the limits of the contacts, or the
     /// [steepest slope](Self::steepest_slope) of either surface, exceeds [`STEEPEST_HALF_PLANE`]:
@@ -54,12 +59,15 @@ impl<T: Real> Solution<'_, T> {
     /// alone decides.
     #[must_use]
     pub fn is_steep(&self) -> bool {
+        self.has_steep_limits() || self.steepest_slope().is_ok_and(is_steep)
+    }
+
+    /// Tells whether the slope of the gap at the limits exceeds that of half-planes.
+    pub(crate) fn has_steep_limits(&self) -> bool {
         let limits = self.intervals().iter().map(|on| [on.left, on.right]).enumerate();
         let solved = self.solved();
-        let steep = |slope: T| slope.abs() > T::of(STEEPEST_HALF_PLANE);
         let mut slopes = limits.flat_map(|(i, limits)| limits.map(|x| solved.sampled_slope(i, x)));
-        slopes.any(|slope| slope.is_some_and(|(slope, _)| steep(slope)))
-            || self.steepest_slope().is_ok_and(steep)
+        slopes.any(|slope| slope.is_some_and(|(slope, _)| is_steep(slope)))
     }
 
     /// Returns how the bodies conform, if they do, so that half-planes give too low a peak: at both

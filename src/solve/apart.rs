@@ -5,8 +5,8 @@
 //! bodies would touch first.
 
 use super::first_contact::first_contact;
-use super::{Contact, Control, Work};
-use crate::gap::{Asked, Sampler};
+use super::{Contact, Control, Work, Workspace};
+use crate::gap::{Asked, Cost, Sampler};
 use crate::solution::{Approaching, ContactState, Outcome, Solved, Start};
 use crate::{ContactError, Edge, Interval, Real, SolveError};
 
@@ -29,7 +29,7 @@ pub(super) fn find<T: Real>(
     if contact.edge_pressure.is_some() || !edges.into_iter().all(may_lift) {
         return Ok(None);
     }
-    let place = first_touch(contact, work)?;
+    let place = first_touch(contact, work.workspace, work.cost)?;
     let found = ContactState::apart(place, load, separation, contact.ends());
     if let Control::Approach { references, .. } = control {
         let (gap, kappa, integrator) = (&contact.gap, contact.kappa, &*work.integrator);
@@ -41,14 +41,15 @@ pub(super) fn find<T: Real>(
 
 /// Finds the place where the bodies touch first. Of two that are as low as the heights tell, it is
 /// either.
-fn first_touch<T: Real>(
+pub(crate) fn first_touch<T: Real>(
     contact: &Contact<'_, T>,
-    work: &mut Work<'_, T>,
+    workspace: &mut Workspace<T>,
+    cost: &mut Cost,
 ) -> Result<T, ContactError<T>> {
     let (gap, ends) = (&contact.gap, contact.ends());
     // Heights as close as under a load that would flatten half the digits of the bodies.
     let aside = ContactState::least_height(gap.range());
-    let look = work.workspace.look(gap, Asked::Load(aside), work.cost)?;
+    let look = workspace.look(gap, Asked::Load(aside), cost)?;
     let lowest = look.lowest();
     let around = Interval { left: lowest - aside, right: lowest + aside };
     // At the end of a body, or a corner, no slope passes through zero.
@@ -57,7 +58,7 @@ fn first_touch<T: Real>(
     }
     let mut sampler = Sampler::default();
     let found = first_contact(&mut sampler, gap, Some(around));
-    *work.cost += sampler.cost;
+    *cost += sampler.cost;
     match found {
         // The middle of a flat will do.
         Err(ContactError::Solve(SolveError::NoFirstContact { .. })) => Ok(lowest),

@@ -69,6 +69,7 @@ mod own_curves;
 mod own_quadrature;
 mod own_searches;
 mod owned;
+mod pair;
 mod partial_slip;
 mod peak;
 mod pieces;

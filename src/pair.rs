@@ -1,0 +1,357 @@
+//! Two bodies that move: poses in, force and torque out.
+//!
+//! A simulator of rigid bodies asks at each step which force two bodies exert on each other where
+//! they stand. Body 2 is seen in the frame of body 1, in which the load acts along y. The overlap of
+//! the bodies along this axis is the [approach](crate::Solution::approach) of their references.
+
+use crate::gap::{Sampler, Shape};
+use crate::material::Foundation;
+use crate::profile::{Convexity, CurvePoint, Piece, Placed, Placement};
+use crate::solution::is_steep;
+use crate::{
+    Body, Contact, ContactError, Control, InputError, ParametricProfile, PlaneState, ProfileError,
+    Real, References, Side, Solver,
+};
+use std::sync::Arc;
+
+/// Step of the differences of a stiffness, as a share of the overlap and of the half-width: half of
+/// the digits that the square of the step leaves.
+const DIFFERENCE: f64 = 1e-4;
+
+/// Overlap that counts as none, in units of the rounding of the heights.
+const ROUNDING: f64 = 64.0;
+
+/// Place of a body in the plane: its origin, and the angle by which it is turned counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Pose<T> {
+    /// X of the body's origin: a length.
+    pub x: T,
+    /// Y of the body's origin: a length.
+    pub y: T,
+    /// Angle, counter-clockwise: radians.
+    pub angle: T,
+}
+
+impl<T: Real> Pose<T> {
+    /// Returns a direction of the body in the plane.
+    fn turned(&self, [x, y]: [T; 2]) -> [T; 2] {
+        let (sin, cos) = self.angle.sin_cos();
+        [cos * x - sin * y, sin * x + cos * y]
+    }
+
+    /// Returns this pose in the frame of another.
+    fn seen_from(&self, other: &Self) -> Self {
+        let back = Self { angle: -other.angle, ..*other };
+        let [x, y] = back.turned([self.x - other.x, self.y - other.y]);
+        Self { x, y, angle: self.angle - other.angle }
+    }
+
+    /// Returns the pose moved by a step in one of its numbers.
+    fn moved(mut self, which: usize, step: T) -> Self {
+        *[&mut self.x, &mut self.y, &mut self.angle][which] += step;
+        self
+    }
+}
+
+/// Force of two bodies on each other, per unit length; all of it zero if they are apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Wrench<T> {
+    /// Largest overlap of the undeformed bodies along the y axis of body 1, a length; the gap
+    /// between them, negative, if they are apart, and minus infinity if they lie beside each other.
+    pub penetration: T,
+    /// Force on body 2, that on body 1 with the other sign: force/length.
+    pub force: [T; 2],
+    /// Place in the plane where it acts, the centre of pressure on the surface of body 1; if the
+    /// bodies are apart, where they would touch first.
+    pub at: [T; 2],
+    /// Torques on body 1 and on body 2, each about the body's own origin, counter-clockwise: force.
+    pub torque: [T; 2],
+    /// Number of places where the bodies touch.
+    pub contacts: usize,
+    /// True if the surfaces slope by more than 0.3 in the frame of body 1 where they touch, as half-
+    /// planes do not: turn the frame, so that its y axis is about normal to the contact.
+    pub is_steep: bool,
+}
+
+/// Two bodies that move, each in its own frame, with all that their force depends on but their
+/// poses.
+///
+/// The load acts along the y axis of body 1: of a cam and its follower, body 1 is the follower. As
+/// for a [`Contact`], body 1 is below and body 2 above it, in the frame of body 1.
+///
+/// ```
+/// use linecontact::profile::Parabola;
+/// use linecontact::{Flat, Material, Pair, Pose, Reference, References};
+///
+/// // A roller of 10 mm on a plate: mm, MPa, N/mm.
+/// let roller = Parabola::new(10.0f64, [-1.0, 1.0])?;
+/// let steel = Material::elastic(210e3, 0.3);
+/// let to = References { x: 0.0, lower: Reference::Depth(30.0), upper: Reference::Disc(10.0) };
+/// let mut pair = Pair::new(&Flat, &roller, (steel, steel), to);
+/// let plate = Pose { x: 0.0, y: 0.0, angle: 0.0 };
+/// let pressed = pair.at(plate, Pose { x: 3.0, y: -0.01, angle: 0.02 })?;
+/// assert!(pressed.force[1] > 0.0 && pressed.force[0] == 0.0 && pressed.contacts == 1);
+/// // The roller has turned by 0.02, and touches 0.02 R beside its lowest point.
+/// assert!((pressed.at[0] - (3.0 - 0.2)).abs() < 1e-3);
+/// let lifted = pair.at(plate, Pose { x: 3.0, y: 0.01, angle: 0.0 })?;
+/// assert!(lifted.force == [0.0; 2] && lifted.penetration == -0.01);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Pair<'b, T: Real> {
+    bodies: [Shape<'b, T>; 2],
+    materials: [Foundation<T>; 2],
+    state: PlaneState,
+    references: References<T>,
+    solver: Solver<T>,
+}
+
+/// Force in the frame of body 1, with the lengths by which it changes.
+struct Pressed<T> {
+    wrench: Wrench<T>,
+    /// Half-width of the contacts, and distances from the origin of body 2 along x and y.
+    half_width: T,
+    arm: [T; 2],
+}
+
+impl<'b, T: Real> Pair<'b, T> {
+    /// Creates a pair in plane strain. The x of the references is that of body 1.
+    pub fn new(
+        lower: &'b dyn ParametricProfile<T>,
+        upper: &'b dyn ParametricProfile<T>,
+        materials: (impl Into<Foundation<T>>, impl Into<Foundation<T>>),
+        references: References<T>,
+    ) -> Self {
+        Self::of([Shape::Lent(lower), Shape::Lent(upper)], materials, references)
+    }
+
+    /// Creates a pair with bodies that it owns.
+    pub fn owned(
+        lower: Arc<dyn ParametricProfile<T>>,
+        upper: Arc<dyn ParametricProfile<T>>,
+        materials: (impl Into<Foundation<T>>, impl Into<Foundation<T>>),
+        references: References<T>,
+    ) -> Self {
+        Self::of([Shape::Owned(lower), Shape::Owned(upper)], materials, references)
+    }
+
+    fn of(
+        bodies: [Shape<'b, T>; 2],
+        materials: (impl Into<Foundation<T>>, impl Into<Foundation<T>>),
+        references: References<T>,
+    ) -> Self {
+        let (state, solver) = (PlaneState::Strain, Solver::new());
+        let materials = [materials.0.into(), materials.1.into()];
+        Self { bodies, materials, state, references, solver }
+    }
+
+    /// Sets the plane state of both bodies.
+    #[must_use]
+    pub fn plane_state(self, state: PlaneState) -> Self {
+        Self { state, ..self }
+    }
+
+    /// Returns the force of the bodies on each other where they stand. It starts from the contact
+    /// found last, and then allocates nothing if both bodies are smooth.
+    ///
+    /// It is continuous where bodies touch, and where contacts appear or merge.
+    ///
+    /// # Errors
+    /// [`InputError::Pose`] if body 2 turns back in the frame of body 1, or stands nowhere; the
+    /// errors of [`Contact::solve`] with a given approach.
+    pub fn at(&mut self, lower: Pose<T>, upper: Pose<T>) -> Result<Wrench<T>, ContactError<T>> {
+        Ok(self.pressed(lower, upper)?.wrench)
+    }
+
+    /// Returns the stiffness of the bodies against each other: the derivatives of the force on body
+    /// 2 along x and y and of the torque on it, in the rows, by x, y and angle of its pose, with
+    /// the other sign, as for a spring. By central differences, about nine digits: six times
+    /// [`at`](Self::at).
+    ///
+    /// # Errors
+    /// As [`at`](Self::at).
+    pub fn stiffness(
+        &mut self,
+        lower: Pose<T>,
+        upper: Pose<T>,
+    ) -> Result<[[T; 3]; 3], ContactError<T>> {
+        let Pressed { wrench, half_width, arm } = self.pressed(lower, upper)?;
+        let mut stiffness = [[T::zero(); 3]; 3];
+        if wrench.contacts == 0 {
+            return Ok(stiffness);
+        }
+        let [along, across] = arm.map(|arm| half_width + arm.abs());
+        let turn = (wrench.penetration / along).min(half_width / across);
+        let size = wrench.penetration.min(half_width);
+        for (which, size) in [size, size, turn].into_iter().enumerate() {
+            let step = T::of(DIFFERENCE) * size;
+            let ends = [-step, step].map(|step| self.at(lower, upper.moved(which, step)));
+            let [before, after] = ends;
+            let [before, after] =
+                [before?, after?].map(|at| [at.force[0], at.force[1], at.torque[1]]);
+            for (row, stiffness) in stiffness.iter_mut().enumerate() {
+                stiffness[which] = (before[row] - after[row]) / (step + step);
+            }
+        }
+        Ok(stiffness)
+    }
+
+    fn pressed(&mut self, lower: Pose<T>, upper: Pose<T>) -> Result<Pressed<T>, ContactError<T>> {
+        let seen = upper.seen_from(&lower);
+        let Pose { x, y, angle } = seen;
+        let named = |source| ContactError::Input(InputError::Pose { x, y, angle, source });
+        let body = Seen::new(self.bodies[1].profile(), &seen).map_err(named)?;
+        let found = pressed_in_frame(
+            (self.bodies[0].profile(), &body),
+            (self.materials, self.state, self.references),
+            &seen,
+            &mut self.solver,
+        );
+        let mut found = found.map_err(|error| match error {
+            ContactError::Input(InputError::Profile { body: Body::Upper, source }) => named(source),
+            error => error,
+        })?;
+        let Wrench { force, at, .. } = &mut found.wrench;
+        let [x, y] = lower.turned(*at);
+        (*force, *at) = (lower.turned(*force), [lower.x + x, lower.y + y]);
+        Ok(found)
+    }
+}
+
+/// Returns the force of two bodies in the frame of the first.
+fn pressed_in_frame<T: Real>(
+    (lower, upper): (&dyn ParametricProfile<T>, &dyn ParametricProfile<T>),
+    (materials, state, mut references): ([Foundation<T>; 2], PlaneState, References<T>),
+    seen: &Pose<T>,
+    solver: &mut Solver<T>,
+) -> Result<Pressed<T>, ContactError<T>> {
+    let zero = T::zero();
+    let apart = |penetration: T, at: [T; 2]| {
+        let (force, torque, contacts, is_steep) = ([zero; 2], [zero; 2], 0, false);
+        let wrench = Wrench { penetration, force, at, torque, contacts, is_steep };
+        Ok(Pressed { wrench, half_width: zero, arm: [zero; 2] })
+    };
+    let contact = match Contact::new(lower, upper) {
+        Err(ContactError::Input(InputError::NoCommonRange { .. })) => {
+            return apart(-T::one() / zero, [seen.x, seen.y]);
+        }
+        contact => contact?.materials(materials[0], materials[1], state),
+    };
+    let [place, gap] = solver.first_touch(&contact)?;
+    let mut sampler = Sampler::default();
+    let mut height = |x: T| sampler.body_height(&contact.gap, Body::Lower, x);
+    if -gap <= T::of(ROUNDING) * T::epsilon() * (seen.x.abs() + seen.y.abs()) {
+        return apart(-gap, [place, height(place)?]);
+    }
+    let [from, to] = contact.gap.range();
+    references.x = references.x.max(from).min(to);
+    let control = Control::Approach { approach: -gap, references };
+    let solution = solver.solve(&contact, control)?;
+    let (load, x) = (solution.load(), solution.centre_of_pressure()?);
+    let at = [x, height(x)?];
+    let slope = sampler.body_slope(&contact.gap, Body::Lower, x, Side::Left)?;
+    let wrench = Wrench {
+        penetration: -gap,
+        force: [zero, load],
+        at,
+        torque: [-x * load, (x - seen.x) * load],
+        contacts: solution.intervals().len(),
+        is_steep: is_steep(slope) || solution.has_steep_limits(),
+    };
+    let arm = [x - seen.x, at[1] - seen.y];
+    Ok(Pressed { wrench, half_width: solution.hull().half_width(), arm })
+}
+
+/// Body 2 in the frame of body 1.
+enum Seen<'p, T: Real> {
+    Smooth(Placed<T, &'p dyn ParametricProfile<T>>),
+    /// Pieces, each with its range of k and its ends.
+    Joined(&'p dyn ParametricProfile<T>, Vec<Part<'p, T>>),
+}
+
+/// Piece of a body in another place.
+struct Part<'p, T: Real> {
+    curve: Placed<T, &'p dyn ParametricProfile<T>>,
+    k: [T; 2],
+    ends: [CurvePoint<T>; 2],
+}
+
+impl<'p, T: Real> Seen<'p, T> {
+    fn new(body: &'p dyn ParametricProfile<T>, pose: &Pose<T>) -> Result<Self, ProfileError<T>> {
+        let placement = Placement::default().rotated(pose.angle).shifted(pose.x, pose.y);
+        let Some((count, _)) = Piece::first_of(body)? else {
+            return Ok(Self::Smooth(Placed::new(body, placement)?));
+        };
+        let part = |index: usize| {
+            let Some(Piece { curve, k, ends }) = body.piece(index) else {
+                return Err(ProfileError::Pieces { count, index });
+            };
+            let ends = ends.map(|end| placement.point(end));
+            if ends[0].x < ends[1].x {
+                return Ok(Part { curve: Placed::new(curve, placement)?, k, ends });
+            }
+            Err(ProfileError::TurnsBack { k: k[1], x: ends[1].x, domain: k })
+        };
+        Ok(Self::Joined(body, (0..count).map(part).collect::<Result<_, _>>()?))
+    }
+}
+
+impl<T: Real> ParametricProfile<T> for Seen<'_, T> {
+    fn domain(&self) -> [T; 2] {
+        match self {
+            Self::Smooth(curve) => curve.domain(),
+            Self::Joined(body, _) => body.domain(),
+        }
+    }
+
+    fn at(&self, k: T) -> CurvePoint<T> {
+        match self {
+            Self::Smooth(curve) => curve.at(k),
+            Self::Joined(body, _) => body.at(k),
+        }
+    }
+
+    fn at_many(&self, k: &[T], points: &mut [CurvePoint<T>]) {
+        match self {
+            Self::Smooth(curve) => curve.at_many(k, points),
+            Self::Joined(body, _) => body.at_many(k, points),
+        }
+    }
+
+    fn slope_at(&self, x: T) -> Option<T> {
+        match self {
+            Self::Smooth(curve) => curve.slope_at(x),
+            Self::Joined(..) => None,
+        }
+    }
+
+    fn convexity(&self) -> Convexity {
+        match self {
+            Self::Smooth(curve) => curve.convexity(),
+            Self::Joined(body, _) => body.convexity(),
+        }
+    }
+
+    fn pieces(&self) -> usize {
+        match self {
+            Self::Smooth(_) => 0,
+            Self::Joined(_, parts) => parts.len(),
+        }
+    }
+
+    fn piece(&self, index: usize) -> Option<Piece<'_, T>> {
+        let Self::Joined(_, parts) = self else { return None };
+        let Part { curve, k, ends } = parts.get(index)?;
+        Some(Piece { curve, k: *k, ends: *ends })
+    }
+}
+
+impl<T: Real> std::fmt::Debug for Pair<'_, T> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { materials, state, references, .. } = self;
+        let mut debug = f.debug_struct("Pair");
+        debug.field("materials", materials).field("state", state).field("references", references);
+        debug.finish_non_exhaustive()
+    }
+}
