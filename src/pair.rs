@@ -1,8 +1,8 @@
 //! Two bodies that move: poses in, force and torque out.
 //!
 //! A simulator of rigid bodies asks at each step which force two bodies exert on each other where
-//! they stand. Body 2 is seen in the frame of body 1, in which the load acts along y. The overlap of
-//! the bodies along this axis is the [approach](crate::Solution::approach) of their references.
+//! they stand. Body 2 is seen in the frame of body 1, in which the load acts along y. The overlap
+//! of the bodies along this axis is the [approach](crate::Solution::approach) of their references.
 
 use crate::gap::{Sampler, Shape};
 use crate::material::Foundation;
@@ -70,8 +70,8 @@ pub struct Wrench<T> {
     pub torque: [T; 2],
     /// Number of places where the bodies touch.
     pub contacts: usize,
-    /// True if the surfaces slope by more than 0.3 in the frame of body 1 where they touch, as half-
-    /// planes do not: turn the frame, so that its y axis is about normal to the contact.
+    /// True if the surfaces slope by more than 0.3 in the frame of body 1 where they touch, unlike
+    /// half-planes: turn the frame, so that its y axis is about normal to the contact.
     pub is_steep: bool,
 }
 
@@ -201,13 +201,20 @@ impl<'b, T: Real> Pair<'b, T> {
         let seen = upper.seen_from(&lower);
         let Pose { x, y, angle } = seen;
         let named = |source| ContactError::Input(InputError::Pose { x, y, angle, source });
-        let body = Seen::new(self.bodies[1].profile(), &seen).map_err(named)?;
-        let found = pressed_in_frame(
-            (self.bodies[0].profile(), &body),
-            (self.materials, self.state, self.references),
-            &seen,
-            &mut self.solver,
-        );
+        let placement = Placement::default().rotated(angle).shifted(x, y);
+        let [lower_body, body] = self.bodies.each_ref().map(|shape| shape.profile());
+        let asked = (self.materials, self.state, self.references);
+        let solver = &mut self.solver;
+        let found = match Piece::first_of(body).map_err(named)? {
+            None => {
+                let body = Placed::new(body, placement).map_err(named)?;
+                pressed_in_frame((lower_body, &body), asked, &seen, solver)
+            }
+            Some((count, _)) => {
+                let body = Joined::new(body, count, placement).map_err(named)?;
+                pressed_in_frame((lower_body, &body), asked, &seen, solver)
+            }
+        };
         let mut found = found.map_err(|error| match error {
             ContactError::Input(InputError::Profile { body: Body::Upper, source }) => named(source),
             error => error,
@@ -263,26 +270,25 @@ fn pressed_in_frame<T: Real>(
     Ok(Pressed { wrench, half_width: solution.hull().half_width(), arm })
 }
 
-/// Body 2 in the frame of body 1.
-enum Seen<'p, T: Real> {
-    Smooth(Placed<T, &'p dyn ParametricProfile<T>>),
-    /// Pieces, each with its range of k and its ends.
-    Joined(&'p dyn ParametricProfile<T>, Vec<Part<'p, T>>),
+/// Body of several pieces in the frame of another body.
+struct Joined<'p, T: Real> {
+    body: &'p dyn ParametricProfile<T>,
+    parts: Vec<Part<'p, T>>,
 }
 
-/// Piece of a body in another place.
+/// Piece of a body in another place, with its range of k and its ends.
 struct Part<'p, T: Real> {
     curve: Placed<T, &'p dyn ParametricProfile<T>>,
     k: [T; 2],
     ends: [CurvePoint<T>; 2],
 }
 
-impl<'p, T: Real> Seen<'p, T> {
-    fn new(body: &'p dyn ParametricProfile<T>, pose: &Pose<T>) -> Result<Self, ProfileError<T>> {
-        let placement = Placement::default().rotated(pose.angle).shifted(pose.x, pose.y);
-        let Some((count, _)) = Piece::first_of(body)? else {
-            return Ok(Self::Smooth(Placed::new(body, placement)?));
-        };
+impl<'p, T: Real> Joined<'p, T> {
+    fn new(
+        body: &'p dyn ParametricProfile<T>,
+        count: usize,
+        placement: Placement<T>,
+    ) -> Result<Self, ProfileError<T>> {
         let part = |index: usize| {
             let Some(Piece { curve, k, ends }) = body.piece(index) else {
                 return Err(ProfileError::Pieces { count, index });
@@ -293,56 +299,29 @@ impl<'p, T: Real> Seen<'p, T> {
             }
             Err(ProfileError::TurnsBack { k: k[1], x: ends[1].x, domain: k })
         };
-        Ok(Self::Joined(body, (0..count).map(part).collect::<Result<_, _>>()?))
+        Ok(Self { body, parts: (0..count).map(part).collect::<Result<_, _>>()? })
     }
 }
 
-impl<T: Real> ParametricProfile<T> for Seen<'_, T> {
+impl<T: Real> ParametricProfile<T> for Joined<'_, T> {
     fn domain(&self) -> [T; 2] {
-        match self {
-            Self::Smooth(curve) => curve.domain(),
-            Self::Joined(body, _) => body.domain(),
-        }
+        self.body.domain()
     }
 
     fn at(&self, k: T) -> CurvePoint<T> {
-        match self {
-            Self::Smooth(curve) => curve.at(k),
-            Self::Joined(body, _) => body.at(k),
-        }
-    }
-
-    fn at_many(&self, k: &[T], points: &mut [CurvePoint<T>]) {
-        match self {
-            Self::Smooth(curve) => curve.at_many(k, points),
-            Self::Joined(body, _) => body.at_many(k, points),
-        }
-    }
-
-    fn slope_at(&self, x: T) -> Option<T> {
-        match self {
-            Self::Smooth(curve) => curve.slope_at(x),
-            Self::Joined(..) => None,
-        }
+        self.body.at(k)
     }
 
     fn convexity(&self) -> Convexity {
-        match self {
-            Self::Smooth(curve) => curve.convexity(),
-            Self::Joined(body, _) => body.convexity(),
-        }
+        self.body.convexity()
     }
 
     fn pieces(&self) -> usize {
-        match self {
-            Self::Smooth(_) => 0,
-            Self::Joined(_, parts) => parts.len(),
-        }
+        self.parts.len()
     }
 
     fn piece(&self, index: usize) -> Option<Piece<'_, T>> {
-        let Self::Joined(_, parts) = self else { return None };
-        let Part { curve, k, ends } = parts.get(index)?;
+        let Part { curve, k, ends } = self.parts.get(index)?;
         Some(Piece { curve, k: *k, ends: *ends })
     }
 }

@@ -25,6 +25,8 @@ mod gear_mesh;
 mod hard_coating;
 #[path = "../examples/hard_scenes/main.rs"]
 mod hard_scenes;
+#[path = "../examples/lifting_follower.rs"]
+mod lifting_follower;
 #[path = "../examples/measured_profile.rs"]
 mod measured_profile;
 #[path = "../examples/paper/main.rs"]
@@ -67,7 +69,7 @@ macro_rules! program {
 }
 
 /// Programs, the longest first.
-const PROGRAMS: [Program; 22] = [
+const PROGRAMS: [Program; 23] = [
     program!(fuzz "0" "2000"),
     program!(measured_profile),
     program!(speed_vs_error "--check"),
@@ -81,6 +83,7 @@ const PROGRAMS: [Program; 22] = [
     program!(finite_roller),
     program!(gear_mesh),
     program!(hard_coating),
+    program!(lifting_follower),
     program!(paper),
     program!(pieces),
     program!(printing_nip),

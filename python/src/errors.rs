@@ -133,6 +133,7 @@ table! {
     Profile { body, source };
     NoCommonRange { lower, upper };
     InvalidLoad { quantity, value };
+    Pose { x, y, angle, source };
     InvalidKappa { kappa };
     InvalidModulus { modulus };
     InvalidLimits { interval };

@@ -8,6 +8,7 @@ mod errors;
 mod files;
 mod finite_roller;
 mod gradient;
+mod pair;
 mod profile;
 mod quantity;
 mod scene;
@@ -26,6 +27,8 @@ mod _native {
     use super::finite_roller::FiniteRoller;
     #[pymodule_export]
     use super::gradient::{gradient, parameters};
+    #[pymodule_export]
+    use super::pair::Pair;
     #[pymodule_export]
     use super::profile::Profile;
     #[pymodule_export]

@@ -75,7 +75,7 @@ fn edge<L: Lift>((name, value): &(String, f64), lift: &mut L) -> PyResult<Edge<L
 }
 
 /// Young's modulus E and Poisson's ratio ν; `None` for a rigid body.
-type Elastic = Option<(f64, f64)>;
+pub type Elastic = Option<(f64, f64)>;
 
 fn material<L: Lift>(of: Elastic, lift: &mut L) -> Material<L::Of> {
     of.map_or(Material::Rigid, |(modulus, ratio)| {
@@ -86,15 +86,15 @@ fn material<L: Lift>(of: Elastic, lift: &mut L) -> Material<L::Of> {
 
 /// Base of a layer: "bonded" or "frictionless", or a half-plane.
 #[derive(FromPyObject)]
-enum Below {
+pub enum Below {
     Rigid(String),
     HalfPlane(Elastic),
 }
 
 /// Material at the surface, and thickness and base of its layer, if it is one.
-type Surface = (Elastic, Option<(f64, Below)>);
+pub type Surface = (Elastic, Option<(f64, Below)>);
 
-fn foundation<L: Lift>((of, below): &Surface, lift: &mut L) -> PyResult<Foundation<L::Of>> {
+pub fn foundation<L: Lift>((of, below): &Surface, lift: &mut L) -> PyResult<Foundation<L::Of>> {
     let Some((thickness, base)) = below else { return Ok(material(*of, lift).into()) };
     let material_of =
         |of: Elastic, name: &str, lift: &mut L| lift.inside(name, |lift| material(of, lift));
@@ -110,7 +110,7 @@ fn foundation<L: Lift>((of, below): &Surface, lift: &mut L) -> PyResult<Foundati
     }))
 }
 
-fn plane(name: &str) -> PyResult<PlaneState> {
+pub fn plane(name: &str) -> PyResult<PlaneState> {
     match name {
         "strain" => Ok(PlaneState::Strain),
         "stress" => Ok(PlaneState::Stress),

@@ -204,6 +204,11 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         "ProfileError",
         {"body": "upper", "source": "ProfileTurnsBackError", "source.x": 0.0},
     ),
+    (
+        lambda: lc.Pair(FLAT, BODY, materials=(STEEL, STEEL), references=TO).at((0, 0, 0), (0, 0, 1.5)),
+        "PoseError",
+        {"x": 0.0, "y": 0.0, "angle": 1.5},
+    ),
     (lambda: contact().solve(load=-1.0), "InvalidLoadError", {"quantity": "load", "value": -1.0}),
     (
         lambda: contact().solve(half_width=0.0),

@@ -6,7 +6,8 @@
 // A program has one allocator.
 use super::cam_follower::ALLOCATOR;
 use linecontact::{
-    Contact, Control, Curve, CurvePoint, Flat, ParametricProfile, Piecewise, Solver,
+    Contact, Control, Curve, CurvePoint, Flat, Material, Pair, ParametricProfile, Piecewise, Pose,
+    Reference, References, Solver,
 };
 use stats_alloc::Region;
 
@@ -72,6 +73,7 @@ fn pressures(solver: &mut Solver<f64>, contact: &Contact<f64>, load: f64) {
 pub(crate) fn main() {
     several_contacts();
     nothing_is_allocated_after_the_first_solve();
+    bodies_that_move();
     if std::env::args().any(|argument| argument == "--ignored") {
         nothing_grows_over_a_million_solves();
     }
@@ -120,6 +122,25 @@ fn nothing_is_allocated_after_the_first_solve() {
         }
     });
     assert_eq!(moved, 0, "a body of three pieces on one that moves");
+}
+
+/// A pair that lifts off and touches again.
+fn bodies_that_move() {
+    let (plate, body) = (roller(0.0, -4.0), roller(0.0, 0.5));
+    let steel = Material::elastic(2.1, 0.3);
+    let length = Reference::Length(3.0);
+    let to = References { x: 0.0, lower: length, upper: length };
+    let mut pair = Pair::new(&plate, &body, (steel, steel), to);
+    let mut run = || {
+        for i in 0..40 {
+            let t = 0.1 * f64::from(i);
+            let (lower, y) = (Pose { x: 0.0, y: 0.0, angle: 0.0 }, 0.01 * t.sin());
+            let wrench = pair.at(lower, Pose { x: 0.05 * t, y, angle: 0.02 * t });
+            std::hint::black_box(wrench.unwrap());
+        }
+    };
+    run();
+    assert_eq!(allocations(run), 0, "a pair");
 }
 
 /// Nothing is allocated while the number of contacts does not change.

@@ -70,8 +70,8 @@ fn it_is_the_contact_of_the_placed_bodies_at_their_overlap() {
         let upper = pose(there.x + cos * x - sin * y, there.y + sin * x + cos * y, angle + turn);
         let moved = pair.at(there, upper).unwrap();
         let turned = [-sin * wrench.force[1], cos * wrench.force[1]];
-        for i in 0..2 {
-            assert!((moved.force[i] - turned[i]).abs() < 1e-10 * load, "{:?}", moved.force);
+        for (found, exact) in moved.force.iter().zip(turned) {
+            assert!((found - exact).abs() < 1e-10 * load, "{:?}", moved.force);
         }
         assert!((moved.penetration - wrench.penetration).abs() < 1e-13);
         assert!((moved.torque[1] - wrench.torque[1]).abs() < 1e-10 * load);

@@ -37,6 +37,7 @@ from .errors import EvaluationError, InputError, LineContactError, SolveError
 from .exploring import explore
 from .files import Scene
 from .finite_roller import FiniteRoller, RollerState
+from .pair import Pair, Pose, Wrench
 from .reading import MeasuredProfile, read_profile
 from .slipping import PartialSlip
 from .solution import (
@@ -81,9 +82,11 @@ __all__ = [
     "Material",
     "MeasuredProfile",
     "Midpoint",
+    "Pair",
     "Panels",
     "PartialSlip",
     "Peak",
+    "Pose",
     "Reference",
     "References",
     "RollerState",
@@ -98,6 +101,7 @@ __all__ = [
     "StressPeak",
     "Summary",
     "Uncertainty",
+    "Wrench",
     "contact_modulus",
     "errors",
     "explore",

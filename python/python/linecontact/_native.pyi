@@ -7,6 +7,7 @@ import numpy.typing as npt
 __all__ = [
     "FiniteRoller",
     "LoadRates",
+    "Pair",
     "PartialSlip",
     "Profile",
     "Scene",
@@ -126,6 +127,16 @@ class SpringTable:
     def touch_error(self) -> float: ...
     def points(self) -> _Columns: ...
     def at(self, approach: _Array) -> _Columns: ...
+
+@final
+class Pair:
+    def __new__(cls, lower: Profile, upper: Profile, materials: Any, to: _References) -> Pair: ...
+    def at(
+        self, lower: tuple[float, float, float], upper: tuple[float, float, float]
+    ) -> tuple[float, list[float], list[float], list[float], int, bool]: ...
+    def stiffness(
+        self, lower: tuple[float, float, float], upper: tuple[float, float, float]
+    ) -> list[list[float]]: ...
 
 @final
 class FiniteRoller:

@@ -182,6 +182,27 @@ class ProfileError(InputError):
     source: LineContactError
 
 
+class PoseError(InputError):
+    """Seen from body 1 of a `Pair`, body 2 is no body: it turns back, or its place is not finite.
+
+    Attributes
+    ----------
+    x : float
+        Place of the origin of body 2 along body 1: a length.
+    y : float
+        Its height above body 1: a length.
+    angle : float
+        Angle from body 1 to body 2, counter-clockwise: radians.
+    source : LineContactError
+        Fault of body 2 as it stands.
+    """
+
+    x: float
+    y: float
+    angle: float
+    source: LineContactError
+
+
 class NoCommonRangeError(InputError):
     """The two bodies have no `x` in common.
 

@@ -1,0 +1,164 @@
+"""Two bodies that move: poses in, force and torque out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _native
+from ._numbers import FloatArray, as_number, one_of
+from .bodies import Body
+from .contact import Foundation, Plane, References, _both, _foundation
+
+__all__ = ["Pair", "Pose", "Wrench"]
+
+
+class Pose(NamedTuple):
+    """Place of a body in the plane.
+
+    Attributes
+    ----------
+    x, y : float
+        The body's origin: lengths.
+    angle : float
+        Angle by which the body is turned counter-clockwise: radians.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> lc.Pose(3.0, angle=0.1)
+    Pose(x=3.0, y=0.0, angle=0.1)
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+    angle: float = 0.0
+
+
+class Wrench(NamedTuple):
+    """Force of two bodies on each other, per unit length; all of it zero if they are apart.
+
+    Attributes
+    ----------
+    penetration : float
+        Largest overlap of the undeformed bodies along the y axis of the lower body, a length; the
+        gap, negative, if they are apart, and minus infinity if they lie beside each other.
+    force : ndarray
+        Force on the upper body, that on the lower one with the other sign: force/length.
+    at : ndarray
+        Place in the plane where it acts; if the bodies are apart, where they would touch first.
+    torque : ndarray
+        Torques on the lower and on the upper body, each about its origin, counter-clockwise.
+    contacts : int
+        Number of places where the bodies touch.
+    is_steep : bool
+        True if the surfaces slope by more than 0.3 in the frame of the lower body where they touch:
+        turn the frame, so that its y axis is about normal to the contact.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> steel = lc.Material(210e3, 0.3)  # MPa; lengths in mm
+    >>> to = lc.References(0.0, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
+    >>> pair = lc.Pair(lc.Flat(), lc.Parabola(10.0, (-1.0, 1.0)), materials=(steel, steel), references=to)
+    >>> wrench = pair.at(lc.Pose(), lc.Pose(3.0, -0.01))
+    >>> round(wrench.penetration, 12), wrench.torque.round(1)  # about x = 0, and about x = 3
+    (0.01, array([-1053.7,     0. ]))
+    """
+
+    penetration: float
+    force: FloatArray
+    at: FloatArray
+    torque: FloatArray
+    contacts: int
+    is_steep: bool
+
+
+class Pair:
+    """Two bodies that move, each in its own frame.
+
+    The load acts along the y axis of the lower body: of a cam and its follower, the lower body is
+    the follower. One pair serves one thread at a time; it starts from the contact found last.
+
+    Parameters
+    ----------
+    lower, upper : Body
+        Bodies, the lower one below the upper one in the frame of the lower one.
+    materials : (Material or Layer, Material or Layer)
+        Materials of both.
+    references : References
+        References of the approach; their x is that of the lower body.
+    plane : {"strain", "stress"}
+        Plane state.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> steel = lc.Material(210e3, 0.3)  # MPa; lengths in mm
+    >>> to = lc.References(0.0, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
+    >>> pair = lc.Pair(lc.Flat(), lc.Parabola(10.0, (-1.0, 1.0)), materials=(steel, steel), references=to)
+    >>> pressed = pair.at(lc.Pose(), lc.Pose(3.0, -0.01))
+    >>> pressed.force.round(1), pressed.contacts
+    (array([  0. , 351.2]), 1)
+    >>> pair.at(lc.Pose(), lc.Pose(3.0, 0.01)).force
+    array([0., 0.])
+    """
+
+    __slots__ = ("_made_of", "_pair")
+
+    def __init__(
+        self,
+        lower: Body,
+        upper: Body,
+        *,
+        materials: Sequence[Foundation],
+        references: References,
+        plane: Plane = "strain",
+    ) -> None:
+        for name, body in (("lower", lower), ("upper", upper)):
+            if not isinstance(body, Body):
+                raise TypeError(f"the {name} body is {body!r}: give a body, such as Flat()")
+        one_of(plane, "plane", ("strain", "stress"))
+        self._made_of = lower, upper, materials, references, plane
+        surfaces = (*map(_foundation, _both(materials)), plane)
+        self._pair = _native.Pair(lower._profile, upper._profile, surfaces, references)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _made_again, self._made_of
+
+    def at(self, lower: Sequence[float], upper: Sequence[float]) -> Wrench:
+        """Returns the force of the bodies on each other where they stand.
+
+        It is continuous where bodies touch, and where contacts appear or merge.
+
+        Raises
+        ------
+        linecontact.errors.PoseError
+            If the upper body turns back in the frame of the lower one.
+        """
+        penetration, *vectors, contacts, is_steep = self._pair.at(_pose(lower), _pose(upper))
+        force, at, torque = map(np.array, vectors)
+        return Wrench(penetration, force, at, torque, contacts, is_steep)
+
+    def stiffness(self, lower: Sequence[float], upper: Sequence[float]) -> FloatArray:
+        """Returns the derivatives of force and torque on the upper body by its pose, negative.
+
+        In the rows are the force along x and y and the torque, in the columns x, y and angle. It
+        takes six times as long as `at`.
+        """
+        return np.array(self._pair.stiffness(_pose(lower), _pose(upper)))
+
+
+def _pose(given: Sequence[float]) -> tuple[float, float, float]:
+    try:
+        x, y, angle = given
+    except (TypeError, ValueError):
+        raise TypeError(f"a pose is {given!r}: give x, y and an angle, as Pose(1.0, 2.0, 0.1)") from None
+    return as_number(x, "x"), as_number(y, "y"), as_number(angle, "angle")
+
+
+def _made_again(lower: Body, upper: Body, materials: Any, references: References, plane: Plane) -> Pair:
+    """Restores a pickled pair."""
+    return Pair(lower, upper, materials=materials, references=references, plane=plane)
