@@ -152,9 +152,9 @@ fn find_checked<'b, T: Real>(
     let kernel = bending::kernel(contact, control)?;
     let repeated = contact.repeated(work.cost)?;
     let contact = repeated.as_deref().unwrap_or(contact);
-    if let Some(apart) = apart::find(contact, control, work)? {
-        let row = repeated.as_ref().map(|row| Box::new(row.gap.clone()));
-        return certified(contact, apart, row, work);
+    if let Some(found) = apart::find(contact, control, work)? {
+        certified(contact, &contact.gap, &found, work.integrator)?;
+        return Ok((found, repeated.map(|row| Box::new(row.gap.clone()))));
     }
     let (mut found, bent) = match kernel {
         None => (find_under(contact, control, work)?, None),
@@ -179,21 +179,21 @@ fn find_checked<'b, T: Real>(
     if found.is_doubtful() {
         work.workspace.report.doubt();
     }
-    certified(contact, found, bent, work)
+    certified(contact, &gap, &found, integrator)?;
+    Ok((found, bent))
 }
 
-/// Returns the contact found, once certified if that was asked for.
-fn certified<'b, T: Real>(
-    contact: &Contact<'b, T>,
-    found: ContactState<T>,
-    bent: Option<Box<Gap<'b, T>>>,
-    work: &Work<'_, T>,
-) -> Result<Found<'b, T>, ContactError<T>> {
+/// Certifies the contact found, if that was asked for.
+fn certified<T: Real>(
+    contact: &Contact<'_, T>,
+    gap: &Gap<'_, T>,
+    found: &ContactState<T>,
+    integrator: &Engine<T>,
+) -> Result<(), ContactError<T>> {
     if contact.certified {
-        let gap = &bent.as_deref().unwrap_or(&contact.gap).tilted(found.tilt);
-        certify(Solved { gap, integrator: work.integrator, kappa: contact.kappa, found: &found })?;
+        certify(Solved { gap, integrator, kappa: contact.kappa, found })?;
     }
-    Ok((found, bent))
+    Ok(())
 }
 
 /// Finds the contact that meets a control.

@@ -12,18 +12,29 @@ use crate::{ContactError, Edge, Interval, Real, SolveError};
 
 /// Returns the state of bodies that are not pressed together under a control; `None` if they are,
 /// or if an edge may pull or is held.
+#[inline]
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
 ) -> Result<Option<ContactState<T>>, ContactError<T>> {
-    let (load, separation) = match control {
-        Control::Load(load) if load.is_zero() => (load, T::zero()),
+    match control {
+        Control::Load(load) if load.is_zero() => lifted(contact, control, [load; 2], work),
         Control::Approach { approach, .. } if approach <= T::zero() && approach.is_finite() => {
-            (T::zero(), -approach)
+            lifted(contact, control, [T::zero(), -approach], work)
         }
-        _ => return Ok(None),
-    };
+        _ => Ok(None),
+    }
+}
+
+/// Returns the state under this load and at this distance, unless an edge may pull or is held.
+#[cold]
+fn lifted<T: Real>(
+    contact: &Contact<'_, T>,
+    control: Control<T>,
+    [load, separation]: [T; 2],
+    work: &mut Work<'_, T>,
+) -> Result<Option<ContactState<T>>, ContactError<T>> {
     let edges = contact.checked_edges()?;
     let may_lift = |edge| matches!(edge, Edge::Free | Edge::FreeUntil(_));
     if contact.edge_pressure.is_some() || !edges.into_iter().all(may_lift) {
