@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import pickle
+import re
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -49,7 +50,16 @@ TEXTS = {
     "old Macs": "x [mm];z [um]\r0.0;1.5\r0.1;-2.5\r0.2;0.5\r",
     "empty cells first": ";;\n;\nx [mm];z [um]\n0.0;1.5\n0.1;-2.5\n0.2;0.5\n",
     "right to left": "x [mm];z [um]\n0.2;0.5\n0.1;-2.5\n0.0;1.5\n",
-    "ends not measured": "x [mm];z [um]\n-0.1;NaN\n0.0;1.5\n0.1;-2.5\n0.2;0.5\n0.3;\n",
+    "ends not measured": "x [mm];z [um]\n-0.1;NaN\n0.0;1.5\n0.1;-2.5\n0.2;0.5\n0.3;-inf\n",
+    "a footer": "x [mm];z [um]\n0.0;1.5\n0.1;-2.5\n0.2;0.5\npoint.end\n\nspline.end; of 1\n",
+    "remarks": "! roller\n% 1 2 3\n%x [mm] z [um]\n0.0 1.5 % left\n! pause\n0.1 -2.5\n0.2 0.5 add a point\n",
+    "numbers in the header": "32.58 37.11 14.71\n(Sd/Sh/qR)\nx [mm] z [um]\n0.0 1.5\n0.1 -2.5\n0.2 0.5\n",
+    "quotes": '"x [mm]"\t"z [um]"\n" 0.0\t1.5\n" 0.1\t-2.5"\n0.2\t"0.5"\n',
+    "units in words": "x in mm, z in µm\n0.0,1.5\n0.1,-2.5\n0.2,0.5\n",
+    "units as last words": "Lateral mm,Raw Micrometer,\n0.0,1.5,\n0.1,-2.5,\n0.2,0.5,\n",
+    "units with underscores": "X_(millimetres),Z_(microns)\n0.0,1.5\n0.1,-2.5\n0.2,0.5\n",
+    "units between blanks": "x\tz\nmm µm\n0.0\t1.5\n0.1\t-2.5\n0.2\t0.5\n",
+    "a title with a unit": "Roller, radius 10 mm\nx in mm, z in um\n0.0,1.5\n0.1,-2.5\n0.2,0.5\n",
 }
 
 
@@ -93,6 +103,98 @@ def test_units_and_columns(tmp_path: Path) -> None:
             lc.read_profile(bare, **given)
     with pytest.raises(FileNotFoundError):
         lc.read_profile(tmp_path / "none.csv")
+
+
+def test_columns_by_name(tmp_path: Path) -> None:
+    file = written(tmp_path, "wide.csv", "n,x [mm],z [um],Note\n1,0,3,7\n2,1,4,8\n")
+    for names in [("x", "z"), ("X [mm]", "Z[um]"), (2, "z"), (2, 3)]:
+        found = lc.read_profile(file, columns=names)  # type: ignore[arg-type]
+        np.testing.assert_allclose(found.points, [[0, 3e-3], [1, 4e-3]])
+    # The header of a MiniProf, which names three of four columns.
+    rail = written(tmp_path, "rail.ban", '"ColumnDef=X,Y,A"\nW1=\n0 1 -0.4 7\n1 2 -0.3 8\n')
+    assert lc.read_profile(rail, columns=("X", "Y")).points.tolist() == [[0, 1], [1, 2]]
+    with pytest.raises(lc.errors.MeasuredFileError, match="no column 'z' in the header: there are 'n', 'x") as raised:
+        lc.read_profile(written(tmp_path, "no.csv", "n;x;y\n1;0;3\n2;1;4\n"), columns=("x", "z"))
+    assert raised.value.line == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("n,x [mm],z [um]\n1,0,3\n2,1,4\n", r"columns=\('x \[mm\]', 'z \[um\]'\)"),
+        ("5 0 9\n4 1 7\n4 2 7\n", r"such as columns=\(2, 3\)"),
+        ("3 1 4\n1 5 9\n2 6 5\n3 5 8\n", "or this is a matrix of heights, in which no column is x"),
+    ],
+)
+def test_columns_that_may_be_meant(text: str, reason: str, tmp_path: Path) -> None:
+    with pytest.raises(lc.errors.MeasuredFileError, match=reason):
+        lc.read_profile(written(tmp_path, "wide.txt", text))
+
+
+def test_a_profile_that_turns_back(tmp_path: Path) -> None:
+    """A circle of 1 mm, from its lowest point round to it again: the upper half is seen from above."""
+    angles = np.linspace(-0.5, 1.5, 401) * np.pi
+    circle = np.column_stack([np.cos(angles), np.sin(angles)])
+    # The upright back of a flange, whose points scatter, and one point that is there twice.
+    flange = np.array([[-1.5, -2.0], [-1.51, -1.0], [-1.49, 0.0], [-1.49, 0.0], [-1.5, 0.5], [-1.2, -3.0]])
+    text = "\n".join(f"{x!r} {z!r}" for x, z in [*flange.tolist(), *circle[::-1].tolist()])
+    file = written(tmp_path, "flange.txt", text)
+    with pytest.raises(lc.errors.MeasuredFileError, match="facing='up' keeps what is seen from above"):
+        lc.read_profile(file)
+    seen = lc.read_profile(file, facing="up").points
+    assert np.all(np.diff(seen[:, 0]) > 0)
+    on_circle = seen[3:]
+    np.testing.assert_allclose(on_circle[:, 1], np.sqrt(1 - np.minimum(on_circle[:, 0] ** 2, 1)), atol=1e-7)
+    assert len(on_circle) == np.sum(circle[:, 1] > -1e-9)
+    assert seen[:4].tolist() == [[-1.51, -1.0], [-1.5, 0.5], [-1.2, -3.0], [-1.0, seen[3, 1]]]
+    below = written(tmp_path, "below.txt", "\n".join(f"{x!r} {-z!r}" for x, z in circle.tolist()))
+    found = lc.read_profile(below, facing="down").points
+    np.testing.assert_allclose(found[:, 1], -np.sqrt(1 - np.minimum(found[:, 0] ** 2, 1)), atol=1e-7)
+    assert len(found) == 201
+    plain = written(tmp_path, "plain.txt", "2 1\n1 0\n0 3\n")
+    assert np.array_equal(lc.read_profile(plain, facing="up").points, lc.read_profile(plain).points)
+    with pytest.raises(ValueError, match="facing is 'left'"):
+        lc.read_profile(plain, facing="left")  # type: ignore[arg-type]
+
+
+def test_what_is_seen_is_what_no_segment_covers(tmp_path: Path) -> None:
+    random = np.random.RandomState(1)
+    for _ in range(20):
+        points = random.randint(0, 12, size=(30, 2)).astype(np.float64)
+        points = points[np.append(True, np.any(np.diff(points, axis=0) != 0, axis=1))]
+        text = "\n".join(f"{x!r} {z!r}" for x, z in points.tolist())
+        try:
+            found = lc.read_profile(written(tmp_path, "any.txt", text), facing="up").points
+        except lc.errors.MeasuredFileError:
+            continue
+        for x, z in points:
+            tops = [z]
+            for (x0, z0), (x1, z1) in zip(points[:-1], points[1:], strict=True):
+                if min(x0, x1) <= x <= max(x0, x1):
+                    tops.append(max(z0, z1) if x0 == x1 else z0 + (z1 - z0) * (x - x0) / (x1 - x0))
+            is_found = bool(np.any((found == [x, z]).all(axis=1)))
+            if max(tops) > z + 1e-9:
+                assert not is_found
+            elif max(tops) == z:
+                assert is_found
+
+
+def test_cut_level_and_shift() -> None:
+    x = np.linspace(-2.0, 3.0, 51)
+    groove = np.where(np.abs(x) < 0.99, -0.1 * (1 - x**2), 0.0)
+    profile = lc.MeasuredProfile(np.column_stack([x, 5.0 + 0.02 * x + groove]), "mm", 3)
+    level = profile.levelled((-2.0, -1.0), (1.0, 3.0))
+    np.testing.assert_allclose(level.points, np.column_stack([x, groove]), atol=1e-14)
+    whole = profile.levelled().points
+    assert abs(np.polyfit(x, whole[:, 1], 1)).max() < 1e-14
+    cut = level.cut(-0.55, 0.55)
+    np.testing.assert_array_equal(cut.points[:, 0], x[15:26])
+    assert cut.unit == "mm" and cut.missing == 3
+    np.testing.assert_array_equal(cut.shifted(1.0, 0.5).points, cut.points + [1.0, 0.5])
+    with pytest.raises(ValueError, match="cut from 4 to 5 leaves 0 points: x is from -2 to 3"):
+        profile.cut(4.0, 5.0)
+    with pytest.raises(ValueError, match="have 0 points: a line is fitted to two or more"):
+        profile.levelled((4.0, 5.0))
 
 
 # Standard files.
@@ -179,6 +281,57 @@ def test_points_that_were_not_measured(name: str, tmp_path: Path) -> None:
     assert found.missing == 16
 
 
+@pytest.mark.parametrize("kind", ["F", "D"])
+def test_infinite_heights_of_x3p_were_not_measured(kind: str, tmp_path: Path) -> None:
+    heights = SURFACE[:1].copy()
+    heights[0, :3], heights[0, 200] = np.inf, -np.inf
+    file = written(tmp_path, "roller.x3p", x3p(heights, STEP, kind=kind))
+    with pytest.raises(lc.errors.MeasuredFileError, match="point 201: infinite, as if not measured: .* leaves it out"):
+        lc.read_profile(file)
+    found = lc.read_profile(file, skip_missing=True)
+    left = np.delete(np.arange(3, COUNT), 197)
+    same(found, X[left], SURFACE[0, left], 1e-7 * SURFACE.max())
+    assert found.missing == 4
+
+
+@pytest.mark.parametrize("axes", ["z", "x;z", "x;y;z"])
+@pytest.mark.parametrize("is_list", [True, False])
+def test_x3p_with_points_in_words(axes: str, is_list: bool, tmp_path: Path) -> None:
+    """Points in main.xml, of a matrix of profiles or a list of one; the second was not measured."""
+    rows = 1 if is_list else 3
+    points = [(x, 0.0, z) for heights in SURFACE[:rows] for x, z in zip(X, heights, strict=True)]
+    words = [";".join(repr(float(p["xyz".index(axis)])) for axis in axes.split(";")) for p in points]
+    words[1] = ""
+    data = "<DataList>" + "".join(f"<Datum>{word}</Datum>" for word in words) + "</DataList>"
+    main = main_of(x3p(SURFACE[:rows], 1.0 if "x" in axes else STEP, x=X if "x" in axes else None))
+    main = re.sub("<DataLink>.*</DataLink>", data, main, flags=re.DOTALL)
+    if is_list:
+        main = re.sub("<Matrix.*</Matrix.*?>", f"<ListDimension>{COUNT}</ListDimension>", main)
+    file = written(tmp_path, "roller.x3p", packed({"main.xml": main.encode()}))
+    found = lc.read_profile(file, row=rows, skip_missing=True)
+    left = np.delete(np.arange(COUNT), 1) if is_list else np.arange(COUNT)
+    same(found, X[left], SURFACE[rows - 1, left])
+    for broken, reason in [("</Datum><Datum>", f"lists {rows * COUNT - 1} points"), (";", "Datum 3 is '.*': no numb")]:
+        text = main.replace(broken, "", 1) if broken != ";" else main.replace(words[2], "one;two", 1)
+        with pytest.raises(lc.errors.MeasuredFileError, match=reason):
+            lc.read_profile(written(tmp_path, "roller.x3p", packed({"main.xml": text.encode()})), row=1)
+
+
+def main_of(content: bytes) -> str:
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return archive.read("main.xml").decode()
+
+
+def test_x3p_that_was_packed_with_its_folder(tmp_path: Path) -> None:
+    with zipfile.ZipFile(io.BytesIO(x3p(SURFACE, STEP, Z_STEP, "L"))) as archive:
+        parts = {f"roller/{name}": archive.read(name) for name in archive.namelist()}
+    file = written(tmp_path, "roller.x3p", packed({**parts, "notes.txt": b""}))
+    same(lc.read_profile(file, row=2), X, SURFACE[1], 0.5 * Z_STEP)
+    two = {**parts, "other/main.xml": parts["roller/main.xml"]}
+    with pytest.raises(lc.errors.MeasuredFileError, match="main.xml is missing"):
+        lc.read_profile(written(tmp_path, "roller.x3p", packed(two)), row=1)
+
+
 def test_a_roller_from_a_file_is_solved(tmp_path: Path) -> None:
     noisy = ROLLER + 2e-8 * np.random.RandomState(1).normal(size=COUNT)
     found = lc.read_profile(written(tmp_path, "roller.x3p", x3p(noisy[None], STEP)), unit="mm")
@@ -240,6 +393,13 @@ def test_surfaces_by_surfalize(name: str, tmp_path: Path) -> None:
 
 
 # Faulty files.
+
+
+def listed() -> bytes:
+    """Returns a surface in X3P whose points are in no matrix."""
+    main = re.sub("<Matrix.*</Matrix.*?>", "<ListDimension>9</ListDimension>", main_of(x3p(SURFACE, STEP)))
+    return packed({"main.xml": main.encode()})
+
 
 GOOD = "x [mm]; z [mm]\n0; 1\n1; 2\n"
 LINES = sdf_text(SURFACE, STEP, Z_STEP)
@@ -316,6 +476,15 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("type.x3p", edited(**{"A</AxisType><DataType>D": "A</AxisType><DataType>Q"}), {"row": 1}, {}, "'Z': 'Q'"),
     ("axis.x3p", x3p(SURFACE, STEP, kind="D", x_type="A"), {"row": 1}, {}, "19248 are expected"),
     ("flat.x3p", x3p(SURFACE[:1], STEP), {"row": 2}, {}, "row is 2"),
+    ("swapped.csv", b"z;x\n3;0\n1;1\n2;2\n", {}, {"line": 4}, r"as column 2 does \(columns=\(2, 1\)\)"),
+    ("one_hole.csv", b"0;1\n1;NaN\n2;3\n", {}, {"line": 2}, ": not measured: skip_missing=True leaves it out"),
+    ("words_between.csv", b"0;1\nend\n1;2\n", {"columns": (1, 2)}, {"line": 2}, "1 columns: there are 2"),
+    ("micron.csv", b"X_(microns),y1\n0,1\n1,2\n", {}, {"line": 1}, r"only one .* such as \('um', 'um'\)"),
+    ("last.csv", b"x in mm,height\n0,1\n1,2\n", {}, {"line": 1}, "only one of x and z has a unit"),
+    ("book.xlsx", packed({"[Content_Types].xml": b"", "xl/workbook.xml": b""}), {}, {}, "is a workbook"),
+    ("book.ods", packed({"mimetype": b"", "content.xml": b""}), {}, {}, "save the sheet with the profile as CSV"),
+    ("book.xls", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(504), {}, {"byte": 0}, "is a workbook"),
+    ("points.x3p", listed(), {}, {}, "feature type 'SUR', a point cloud: read are profiles"),
 ]
 
 

@@ -11,12 +11,13 @@ import re
 from collections.abc import Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from . import surfaces
-from ._numbers import FloatArray, one_of
+from ._numbers import FloatArray, Range, one_of
 from .errors import MeasuredFileError
 
 __all__ = ["MeasuredProfile", "read_profile"]
@@ -25,15 +26,29 @@ __all__ = ["MeasuredProfile", "read_profile"]
 _METRES = {
     "m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9, "in": 0.0254,
 }  # fmt: skip
-# Word in brackets or after a slash, as in `x [mm]`, `x (mm)` and `x / mm`.
-_STATED = re.compile(r"[\[(/]\s*([^][()/\s]+)\s*(?:[\])]|$|(?=\s))")
+# Their names in headers, singular and in American spelling, as `_unit` makes them.
+_NAMES = {
+    "meter": "m", "centimeter": "cm", "millimeter": "mm", "micrometer": "um", "micron": "um", "nanometer": "nm",
+    "inch": "in", "inche": "in",
+}  # fmt: skip
+# Word in brackets, after a slash or after "in", as in `x [mm]`, `x (mm)`, `x / mm` and `x in mm`.
+_STATED = re.compile(r"(?:[\[(/]|\bin\s)\s*([^][()/\s,]+)\s*(?:[\])]|$|(?=[\s,]))")
+# What begins a remark: the rest of the line is none of the data.
+_REMARK = re.compile(r"[#%!].*")
 
 # Delimiters of columns, in the order in which they are tried; None is white space.
 _DELIMITERS = ("\t", ";", ",", None)
 
 
+class _Head(NamedTuple):
+    """A line of a header, with its cells by one delimiter or another, those of the table first."""
+
+    line: int
+    ways: list[list[str]]
+
+
 class MeasuredProfile(NamedTuple):
-    """A profile from a file, for a `Spline`.
+    """A profile from a file, for a `Spline`; `cut`, `levelled` and `shifted` return another.
 
     Attributes
     ----------
@@ -48,13 +63,47 @@ class MeasuredProfile(NamedTuple):
     --------
     >>> import numpy as np
     >>> import linecontact as lc
-    >>> lc.MeasuredProfile(np.zeros((2, 2)), "mm", 0).unit
-    'mm'
+    >>> x = np.linspace(-3.0, 3.0, 7)
+    >>> tilted = lc.MeasuredProfile(np.column_stack([x, 2.0 + 0.1 * x - x**4 / 100]), "mm", 0)
+    >>> tilted.levelled().cut(-1.0, 1.0).shifted(across=-0.3).points.round(4).tolist()
+    [[-1.0, -0.03], [0.0, -0.02], [1.0, -0.03]]
     """
 
     points: FloatArray
     unit: str
     missing: int
+
+    def cut(self, first: float, last: float) -> MeasuredProfile:
+        """Returns the part from `first` to `last` along x.
+
+        Cut before smoothing: a `Spline` has one smoothing for all its points.
+        """
+        x = self.points[:, 0]
+        inside = self.points[(first <= x) & (x <= last)]
+        if len(inside) < 2:
+            raise ValueError(f"cut from {first:g} to {last:g} leaves {len(inside)} points: x is from {x[0]:g} to {x[-1]:g}")
+        return self._replace(points=inside)
+
+    def levelled(self, *parts: Range) -> MeasuredProfile:
+        """Subtracts a straight line from the heights: that of the least squares, through zero height.
+
+        The line is fitted to `parts`, ranges of x such as the plane lands beside a groove, or to
+        all points. A slope of a few degrees is taken off in this way; to turn a body by more, use
+        `Spline(...).rotated`.
+        """
+        x, z = self.points.T
+        is_fitted = np.full(len(x), not parts)
+        for first, last in parts:
+            is_fitted |= (first <= x) & (x <= last)
+        if np.sum(is_fitted) < 2:
+            raise ValueError(f"parts {parts} have {np.sum(is_fitted)} points: a line is fitted to two or more")
+        middle = np.mean(x[is_fitted])
+        line = np.polynomial.Polynomial.fit(x[is_fitted] - middle, z[is_fitted], 1)
+        return self._replace(points=np.column_stack([x, z - line(x - middle)]))
+
+    def shifted(self, along: float = 0.0, across: float = 0.0) -> MeasuredProfile:
+        """Adds `along` to x and `across` to the heights."""
+        return self._replace(points=self.points + [along, across])
 
 
 def read_profile(
@@ -62,14 +111,16 @@ def read_profile(
     *,
     unit: str | None = None,
     row: int | None = None,
-    columns: tuple[int, int] | None = None,
+    columns: tuple[int, int] | tuple[str, str] | None = None,
     file_units: tuple[str, str] | None = None,
     skip_missing: bool = False,
+    facing: Literal["up", "down"] | None = None,
 ) -> MeasuredProfile:
     """Reads a measured profile from a text of columns, an X3P file or an SDF file.
 
     In a text, columns are separated by tabs, semicolons, commas or white space. Lines before the
-    first line of numbers are the header, and may state units as in ``x [mm]; z [um]``. Numbers may
+    first line of numbers are the header, and may state units as in ``x [mm]; z [um]``; lines of
+    words after the last are left out, and so is what follows ``#``, ``%`` or ``!``. Numbers may
     have decimal commas. A profile that was measured from right to left is reversed. Heights are as
     in the file: upwards, out of the material. For an upper body the spline is to be `flipped`.
 
@@ -81,13 +132,19 @@ def read_profile(
         Unit of the result. Default: that of x in the file, "m" for X3P and SDF.
     row : int, optional
         Profile to be read from a surface, counted from 1, through all layers.
-    columns : (int, int), optional
-        Columns of x and z in a text, counted from 1. Texts of two columns do not need them.
+    columns : (int, int) or (str, str), optional
+        Columns of x and z in a text, counted from 1, or their names in the header, with or without
+        the unit. Texts of two columns do not need them.
     file_units : (str, str), optional
         Units of x and z in a text, in place of those that its header states.
     skip_missing : bool
         True to leave out points that were not measured wherever they are: a spline then bridges
         the gaps. By default they are left out at the ends only; between others they are an error.
+        Empty cells, NaN and infinite numbers were not measured.
+    facing : {"up", "down"}, optional
+        Part to be kept of a profile whose x turns back, as that of a flange: what is seen from
+        above, which is what can touch, or from below where the file has heights into the
+        material. By default an x that turns back is an error.
 
     Returns
     -------
@@ -118,76 +175,113 @@ def read_profile(
             raise TypeError(f"{words} is {pair!r}: give two, of x and z")
     for given in (*(file_units or ()), *([] if unit is None else [unit])):
         one_of(given, "unit", tuple(_METRES))
+    if facing is not None:
+        one_of(facing, "facing", ("up", "down"))
     kind = surfaces.kind_of(name, data)
     if (row if kind == "text" else columns or file_units) is not None:
         raise MeasuredFileError(name, f"is {kind}: columns and file_units are for texts, and row is for others")
     if kind == "text":
-        points, lines, units = _text(name, data, columns, file_units)
+        points, lines, units, hint = _text(name, data, columns, file_units)
     else:
-        points, lines, units = surfaces.READERS[kind](name, data, row), [], ("m", "m")
+        points, lines, units, hint = surfaces.READERS[kind](name, data, row), [], ("m", "m"), ""
     if unit is not None and not units[0]:
         raise MeasuredFileError(name, "states no units: give file_units, such as ('mm', 'um')")
     wanted = units[0] if unit is None else unit
     if wanted:
         points = points * [_METRES[given] / _METRES[wanted] for given in units]
-    kept = _measured(name, points, lines, skip_missing)
-    return MeasuredProfile(kept, wanted, len(points) - len(kept))
-
-
-def _measured(name: str, points: FloatArray, lines: Sequence[int], skip: bool) -> FloatArray:
-    """Returns the points that were measured, by rising x."""
-
-    def fault(at: int | np.intp, reason: str) -> MeasuredFileError:
-        line = lines[int(at)] if lines else None
-        return MeasuredFileError(name, reason if lines else f"point {at + 1}: {reason}", line)
-
-    if (infinite := np.flatnonzero(np.isinf(points).any(axis=1))).size:
-        raise fault(infinite[0], "a number is infinite")
-    measured = np.isfinite(points).all(axis=1)
-    places = np.flatnonzero(measured)
-    if places.size < 2:
-        raise MeasuredFileError(name, f"{places.size} points were measured: a profile has two or more")
-    gaps = np.setdiff1d(np.arange(places[0], places[-1]), places)
-    if gaps.size and not skip:
-        others = f"like {gaps.size - 1} others between the ends: skip_missing=True leaves them out"
-        raise fault(gaps[0], f"not measured, {others}")
+    places = _measured(name, points, lines, skip_missing)
+    missing = len(points) - len(places)
+    if facing is not None:
+        return MeasuredProfile(_facing(points[places], 1.0 if facing == "up" else -1.0), wanted, missing)
     x = points[places, 0]
     turn = 1 if x[-1] > x[0] else -1
     if (back := np.flatnonzero(turn * np.diff(x) <= 0.0)).size:
         there, here = x[back[0] : back[0] + 2]
-        raise fault(places[back[0] + 1], f"x = {here:g} after {there:g}: x must rise throughout, or fall throughout")
-    return points[places[::turn]]
+        reason = f"x = {here:g} after {there:g}: x must rise throughout, or fall throughout{hint}"
+        remedy = "facing='up' keeps what is seen from above"
+        raise _fault(name, lines, int(places[back[0] + 1]), f"{reason}; {remedy}")
+    return MeasuredProfile(points[places[::turn]], wanted, missing)
+
+
+def _fault(name: str, lines: Sequence[int], at: int, reason: str) -> MeasuredFileError:
+    """Returns the error at a point."""
+    return MeasuredFileError(name, reason if lines else f"point {at + 1}: {reason}", lines[at] if lines else None)
+
+
+def _measured(name: str, points: FloatArray, lines: Sequence[int], skip: bool) -> npt.NDArray[np.intp]:
+    """Returns the places of the points that were measured."""
+    places = np.flatnonzero(np.isfinite(points).all(axis=1))
+    if places.size < 2:
+        raise MeasuredFileError(name, f"{places.size} points were measured: a profile has two or more")
+    gaps = np.setdiff1d(np.arange(places[0], places[-1]), places)
+    if gaps.size and not skip:
+        what = "infinite, as if not measured" if np.isinf(points[gaps[0]]).any() else "not measured"
+        others = f", like {gaps.size - 1} others between the ends" if gaps.size > 1 else ""
+        it = "them" if others else "it"
+        raise _fault(name, lines, int(gaps[0]), f"{what}{others}: skip_missing=True leaves {it} out")
+    return places
+
+
+def _facing(points: FloatArray, upwards: float) -> FloatArray:
+    """Returns the points with no other part of the profile above them, by rising x."""
+    x, z = points[:, 0], upwards * points[:, 1]
+    by_x = np.argsort(x, kind="stable")
+    is_seen = np.ones(len(x), dtype=np.bool_)
+    # Runs in which x rises, or falls, or rests; each ends where the next begins.
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(x)))) + 1
+    for first, last in zip([0, *turns], [*turns, len(x) - 1], strict=True):
+        run = slice(first, last + 1) if x[first] <= x[last] else slice(last, first - 1 if first else None, -1)
+        below = by_x[np.searchsorted(x[by_x], x[run][0]) : np.searchsorted(x[by_x], x[run][-1], "right")]
+        top = np.interp(x[below], x[run], z[run]) if x[first] != x[last] else np.max(z[run])
+        is_seen[below] &= z[below] >= top
+    seen = points[is_seen]
+    # Of points with the same x and height one is kept.
+    return np.asarray(seen[np.unique(seen[:, 0], return_index=True)[1]])
 
 
 def _text(
-    name: str, data: bytes, columns: tuple[int, int] | None, file_units: tuple[str, str] | None
-) -> tuple[FloatArray, list[int], tuple[str, str]]:
-    """Returns the points of a text, the line of each, and the units."""
+    name: str, data: bytes, columns: tuple[int, int] | tuple[str, str] | None, file_units: tuple[str, str] | None
+) -> tuple[FloatArray, list[int], tuple[str, str], str]:
+    """Returns the points of a text, the line of each, the units, and what to say if x turns back."""
     lines = re.split(r"\r\n|\r|\n", _decoded(name, data))
     first, delimiter, width = _first_row(name, lines)
+    heads = _heads(lines[:first], delimiter, width)
+    table, places = _table(name, lines, first, delimiter, width)
+    numbers = [[_number(cell) for cell in cells[:width]] for cells in table]
+    points = np.array(numbers, dtype=np.float64)
+    steps = np.diff(points, axis=0)
+    can_be_x = (1 + np.flatnonzero((steps > 0).all(axis=0) | (steps < 0).all(axis=0))).tolist() if len(steps) else []
     if columns is None and width > 2:
-        raise MeasuredFileError(name, f"{width} columns: give those of x and z, as columns=(1, {width})", first + 1)
-    columns = columns or (1, 2)
-    if min(columns) < 1 or max(columns) > width or columns[0] == columns[1]:
+        such = _columns_to_try(heads, width, can_be_x)
+        raise MeasuredFileError(name, f"{width} columns: give those of x and z, by number or name, {such}", first + 1)
+    x, z = (1, 2) if columns is None else (_numbered(name, heads, column) for column in columns)
+    if min(x, z) < 1 or max(x, z) > width or x == z:
         raise MeasuredFileError(name, f"columns are {columns}: give two of 1 to {width}", first + 1)
-    points, places, marks = [], [], set[str]()
-    for line, content in enumerate(lines[first:], first + 1):
-        cells = _cells(content, delimiter)
-        if not any(cells) or cells[0].startswith("#"):
-            continue
-        if len(cells) < width or any(cells[width:]):
-            raise MeasuredFileError(name, f"{len(cells)} columns: there are {width} in line {first + 1}", line)
-        chosen = [cells[column - 1] for column in columns]
-        numbers = [_number(cell) for cell in chosen]
-        if None in numbers:
+    marks = set[str]()
+    for cells, row, line in zip(table, numbers, places, strict=True):
+        chosen = [cells[x - 1], cells[z - 1]]
+        if row[x - 1] is None or row[z - 1] is None:
             raise MeasuredFileError(name, f"{' and '.join(map(repr, chosen))} are no two numbers", line)
         marks |= {mark for mark in ".," for cell in chosen if mark in cell}
         if len(marks) > 1:
             raise MeasuredFileError(name, "numbers with a decimal point, and others with a comma", line)
-        points.append(numbers)
-        places.append(line)
-    units = file_units or _units(name, lines[:first], delimiter, columns, width)
-    return np.array(points, dtype=np.float64), places, units
+    meant = next(((other, z if other != z else x) for other in can_be_x if x not in can_be_x), None)
+    hint = f", as column {meant[0]} does (columns={meant})" if meant else ""
+    return points[:, [x - 1, z - 1]], places, file_units or _units(name, heads, x, z), hint
+
+
+def _table(
+    name: str, lines: Sequence[str], first: int, delimiter: str | None, width: int
+) -> tuple[list[list[str]], list[int]]:
+    """Returns the cells of the rows of numbers, and the line of each; words may stand below and behind."""
+    rows = [(_cells(content, delimiter), line) for line, content in enumerate(lines[first:], first + 1)]
+    rows = [(cells, line) for cells, line in rows if any(cells)]
+    while _number(rows[-1][0][0]) is None:
+        rows.pop()
+    for cells, line in rows:
+        if len(cells) < width or any(cell and _number(cell) is not None for cell in cells[width:]):
+            raise MeasuredFileError(name, f"{len(cells)} columns: there are {width} in line {first + 1}", line)
+    return [cells for cells, _ in rows], [line for _, line in rows]
 
 
 def _decoded(name: str, data: bytes) -> str:
@@ -205,7 +299,7 @@ def _decoded(name: str, data: bytes) -> str:
 
 
 def _cells(line: str, delimiter: str | None) -> list[str]:
-    return [cell.strip() for cell in line.split(delimiter)]
+    return [cell.strip('" \t') for cell in _REMARK.sub("", line).split(delimiter)] or [""]
 
 
 def _number(cell: str) -> float | None:
@@ -217,36 +311,104 @@ def _number(cell: str) -> float | None:
 
 
 def _first_row(name: str, lines: Sequence[str]) -> tuple[int, str | None, int]:
-    """Returns the first line of numbers, the delimiter of its columns, and their number."""
+    """Returns the first line of numbers, the delimiter of its columns, and their number.
+
+    A line of numbers with words below it is part of the header, unless the table is alike.
+    """
+    passed = list[tuple[int, str | None, int]]()
     for at, line in enumerate(lines):
         for delimiter in _DELIMITERS:
             cells = _cells(line, delimiter)
             while len(cells) > 2 and not cells[-1]:
                 cells.pop()
             if len(cells) > 1 and cells[0] and None not in map(_number, cells):
-                return at, delimiter, len(cells)
+                passed.append((at, delimiter, len(cells)))
+                below = next((cells for line in lines[at + 1 :] if any(cells := _cells(line, delimiter))), [""])
+                if _number(below[0]) is not None:
+                    return next(one for one in passed if one[1:] == passed[-1][1:])
+                break
+    if passed:
+        return passed[0]
     single = (at for at, line in enumerate(lines, 1) if line.strip() and _number(line.strip()) is not None)
     raise MeasuredFileError(name, "no line has two numbers: a profile has columns of x and z", next(single, None))
 
 
-def _units(
-    name: str, header: Sequence[str], delimiter: str | None, columns: tuple[int, int], width: int
-) -> tuple[str, str]:
-    """Returns the units of x and z that the header states; two empty ones if it states none."""
+def _heads(header: Sequence[str], delimiter: str | None, width: int) -> list[_Head]:
+    """Returns the lines of the header, the last line first."""
+    heads = []
     for line in range(len(header), 0, -1):
-        content = header[line - 1]
+        content = header[line - 1].strip('#%!" \t')
         # White space around a bracket parts no columns.
-        cells = _cells(content if delimiter else re.sub(r"\s*([\[(/])\s*", r"\1", content), delimiter)
-        if delimiter is None and len(cells) != width:
-            cells = _STATED.findall(content)
-        if max(columns) <= len(cells):
-            stated = [_STATED.findall(cells[column - 1]) for column in columns]
-            words = ([cells[column - 1], *found] for column, found in zip(columns, stated, strict=True))
-            x, z = (next((word.lower() for word in each if word.lower() in _METRES), "") for each in words)
-            if all(stated) and not x and not z:
-                raise MeasuredFileError(name, f"units {stated[0][0]!r} and {stated[1][0]!r}: give file_units", line)
-            if x and z:
-                return x, z
-            if x or z:
-                raise MeasuredFileError(name, "only one of x and z has a unit here: give file_units", line)
+        joined = re.sub(r"\s*([\[(/])\s*", r"\1", content)
+        ways = [(content if by else joined).split(by) for by in (delimiter, *_DELIMITERS)] + [_STATED.findall(content)]
+        ways = [[cell.strip('" \t') for cell in cells] for cells in ways]
+        ways.sort(key=lambda cells: len(cells) != width)
+        heads.append(_Head(line, ways))
+    return heads
+
+
+def _bare(head: str) -> str:
+    """Returns the name of a column without its unit, as `x` of `x [mm]` and of `Columns=X`."""
+    return re.sub(r"[\[(/].*|.*=|\s", "", head).lower()
+
+
+def _numbered(name: str, heads: Sequence[_Head], column: int | str) -> int:
+    """Returns the number of a column that is given by its number or its name."""
+    if not isinstance(column, str):
+        return column
+    wanted = re.sub(r"\s", "", column).lower()
+    for head in heads:
+        for cells in head.ways:
+            for at, cell in enumerate(cells, 1):
+                if wanted in (_bare(cell), re.sub(r"\s", "", cell).lower()):
+                    return at
+    if not heads:
+        raise MeasuredFileError(name, f"no column {column!r}: there is no header")
+    there = ", ".join(map(repr, heads[0].ways[0]))
+    raise MeasuredFileError(name, f"no column {column!r} in the header: there are {there}", heads[0].line)
+
+
+def _columns_to_try(heads: Sequence[_Head], width: int, can_be_x: Sequence[int]) -> str:
+    """Tells which columns may be meant: those with units, or the first that can be x."""
+    for head in heads:
+        with_units = [cell for cell in head.ways[0] if _unit_of(cell)[0]]
+        if len(head.ways[0]) == width and len(with_units) > 1:
+            return f"such as columns={tuple(with_units[:2])}"
+    if not can_be_x:
+        reason = "none rises or falls throughout: x turns back (give facing, too), or this is a matrix of heights"
+        return f"such as columns=(1, 2); {reason}, in which no column is x"
+    return f"such as columns={(can_be_x[0], width if can_be_x[0] < width else 1)}"
+
+
+def _symbol(word: str) -> str:
+    """Returns a unit as a symbol, or nothing if it is none that is known."""
+    word = word.lower()
+    return word if word in _METRES else _NAMES.get(word.removesuffix("s").replace("metre", "meter"), "")
+
+
+def _unit_of(head: str) -> tuple[str, str]:
+    """Returns the unit that a head states, and the word in brackets, each empty if there is none.
+
+    The unit is the word in brackets, the head itself or its last word, as in `Lateral um`.
+    """
+    stated = _STATED.findall(head)
+    words = [head, *stated] if stated else head.split()[-1:]
+    return next(filter(None, map(_symbol, words)), ""), stated[0] if stated else ""
+
+
+def _units(name: str, heads: Sequence[_Head], *columns: int) -> tuple[str, str]:
+    """Returns the units of x and z that the header states; two empty ones if it states none."""
+    for line, ways in heads:
+        if max(columns) > len(ways[0]):
+            continue
+        (x, in_x), (z, in_z) = (_unit_of(ways[0][column - 1]) for column in columns)
+        if x and z:
+            return x, z
+        # A word of a title may look like a unit.
+        if (x or z) and (line == heads[0].line or in_x or in_z):
+            unit = x or z
+            reason = f"only one of x and z has a unit here: give file_units, such as {(unit, unit)}"
+            raise MeasuredFileError(name, reason, line)
+        if in_x and in_z:
+            raise MeasuredFileError(name, f"units {in_x!r} and {in_z!r}: give file_units", line)
     return "", ""

@@ -22,6 +22,8 @@ from .errors import MeasuredFileError
 # the size to which a small archive can unpack.
 _MOST_BYTES = 2**30
 
+_WORKBOOK = "is a workbook or a document: save the sheet with the profile as CSV"
+
 # Types of coordinates in X3P, element DataType.
 _X3P_TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 
@@ -35,6 +37,8 @@ _SDF_TYPES = {
 
 def kind_of(name: str, data: bytes) -> str:
     """Tells X3P, SDF and texts apart, by their first bytes."""
+    if data.startswith(b"\xd0\xcf\x11\xe0"):
+        raise MeasuredFileError(name, _WORKBOOK, byte=0)
     found = "x3p" if data.startswith(b"PK\3\4") else "sdf" if re.match(rb"[ab]ISO-[12]\.0", data) else "text"
     suffix = name.lower().rpartition(".")[2]
     if suffix in READERS and found != suffix:
@@ -116,16 +120,22 @@ def _sdf_text(name: str, data: bytes, row: int | None) -> FloatArray:
 
 
 def _part(name: str, data: bytes, part: str, size: int | None = None) -> bytes:
-    """Unpacks a part of an archive, once its size is known to be as expected."""
+    """Unpacks a part of an archive, once its size is known to be as expected.
+
+    All parts may be in one folder, where a folder was packed in place of its contents.
+    """
     try:
         archive = zipfile.ZipFile(io.BytesIO(data))
-        found = archive.NameToInfo.get(part)
+        parts = archive.NameToInfo
+        inside = [at for at in parts if at.endswith(f"/{part}")]
+        found = parts.get(part if part in parts or len(inside) != 1 else inside[0])
         if found is not None and found.file_size <= _MOST_BYTES and size in (None, found.file_size):
             return archive.read(found)
     except Exception as error:  # Damaged archives raise errors of many kinds.
         raise MeasuredFileError(name, f"no whole ZIP archive: {error}") from None
     if found is None:
-        raise MeasuredFileError(name, f"{part} is missing from the archive")
+        is_office = not parts.keys().isdisjoint(("[Content_Types].xml", "mimetype"))
+        raise MeasuredFileError(name, _WORKBOOK if is_office else f"{part} is missing from the archive")
     wanted = f"{size} are expected, and" if size else ""
     raise MeasuredFileError(name, f"{part} has {found.file_size} bytes: {wanted} at most {_MOST_BYTES} are read")
 
@@ -156,34 +166,64 @@ class _Main:
 
 
 def _x3p(name: str, data: bytes, row: int | None) -> FloatArray:
-    """Reads main.xml and the coordinates that it links: ISO 25178-72, Records 1 and 3."""
+    """Reads main.xml and the coordinates that it links or lists: ISO 25178-72, Records 1 and 3."""
     main = _Main(name, data)
-    if (feature := main.text("Record1/FeatureType")) not in ("PRF", "SUR"):
-        raise MeasuredFileError(name, f"feature type {feature!r}: read are profiles, PRF, and surfaces, SUR")
-    count, *others = (int(main.number(f"Record3/MatrixDimension/Size{axis}", "1", int)) for axis in "XYZ")
+    feature, listed = main.text("Record1/FeatureType"), main.text("Record3/ListDimension")
+    if feature not in ("PRF", "SUR") or (listed and feature == "SUR"):
+        reason = f"feature type {feature!r}, a point cloud" if listed or feature == "PCL" else f"feature type {feature!r}"
+        raise MeasuredFileError(name, f"{reason}: read are profiles, PRF, and the rows of surfaces, SUR, in a matrix")
+    # A profile may be a list of points, which is a matrix of one row.
+    sizes = ["ListDimension"] if listed else [f"MatrixDimension/Size{axis}" for axis in "XYZ"]
+    count, *others = (int(main.number(f"Record3/{size}", "1", int)) for size in sizes)
     rows, part = math.prod(others), main.text("Record3/DataLink/PointDataLink")
-    if min(count, *others) < 1 or not part:
-        raise MeasuredFileError(name, f"main.xml: {rows} profiles of {count} points: read are those in a binary part")
+    points = main.root.findall("Record3/DataList/Datum")
+    if min([count, *others]) < 1 or not (part or points):
+        reason = "read are those in a binary part, or in a list"
+        raise MeasuredFileError(name, f"main.xml: {rows} profiles of {count} points: {reason}")
     # Coordinates of absolute axes are stored; those of incremental axes are counted.
     is_stored = {axis: main.text(f"Record1/Axes/C{axis}/AxisType") == "A" for axis in "XYZ"}
     types = {axis: main.text(f"Record1/Axes/C{axis}/DataType") for axis in "XYZ" if is_stored[axis]}
     if "Z" not in types or not _X3P_TYPES.keys() >= set(types.values()):
         raise MeasuredFileError(name, f"main.xml: stored are {types}: Z must be, as {' or '.join(_X3P_TYPES)}")
-    dtype = np.dtype([(axis, _X3P_TYPES[kind]) for axis, kind in types.items()])
     chosen = _chosen(name, rows, row)
-    stored = np.frombuffer(_part(name, data, part, count * rows * dtype.itemsize), dtype)
-    measured = np.ones(count * rows, dtype=np.bool_)
-    if valid := main.text("Record3/DataLink/ValidPointsLink"):
-        bits = np.frombuffer(_part(name, data, valid, -(-count * rows // 8)), np.uint8)
-        # The first point is the least significant bit.
-        measured = np.unpackbits(bits, count=count * rows, bitorder="little").astype(np.bool_)
     at, columns = slice(chosen * count, (chosen + 1) * count), []
+    if part:
+        stored = _linked(main, data, part, count * rows, types)
+    else:
+        stored = _listed(name, [point.text or "" for point in points], count * rows)
     for axis in "XZ":
-        numbers = np.where(measured[at], stored[axis][at], math.nan) if axis in types else np.arange(count)
+        numbers = stored[axis][at] if axis in types else np.arange(count)
         path = f"Record1/Axes/C{axis}"
         step, offset = main.number(f"{path}/Increment", "1"), main.number(f"{path}/Offset", "0")
         columns.append(_scaled(name, numbers, step, offset))
     return np.column_stack(columns)
+
+
+def _linked(main: _Main, data: bytes, part: str, size: int, types: dict[str, str]) -> dict[str, FloatArray]:
+    """Returns the stored coordinates from a binary part, NaN for points that were not measured."""
+    dtype = np.dtype([(axis, _X3P_TYPES[kind]) for axis, kind in types.items()])
+    stored = np.frombuffer(_part(main.name, data, part, size * dtype.itemsize), dtype)
+    measured = np.ones(size, dtype=np.bool_)
+    if valid := main.text("Record3/DataLink/ValidPointsLink"):
+        bits = np.frombuffer(_part(main.name, data, valid, -(-size // 8)), np.uint8)
+        # The first point is the least significant bit.
+        measured = np.unpackbits(bits, count=size, bitorder="little").astype(np.bool_)
+    return {axis: np.where(measured, stored[axis], math.nan) for axis in types}
+
+
+def _listed(name: str, points: list[str], size: int) -> dict[str, FloatArray]:
+    """Returns the coordinates of points in words, `x;y;z` or fewer; an empty one was not measured."""
+    if len(points) != size:
+        raise MeasuredFileError(name, f"main.xml lists {len(points)} points: {size} are expected")
+    found = np.full((size, 2), math.nan)
+    for at, words in enumerate(points):
+        try:
+            if words.strip():
+                # The height is the last; numbers of an axis that is not stored may stand before it.
+                found[at] = float(words.split(";")[0]), float(words.split(";")[-1])
+        except ValueError:
+            raise MeasuredFileError(name, f"main.xml: Datum {at + 1} is {words!r}: no numbers") from None
+    return {"X": found[:, 0], "Z": found[:, 1]}
 
 
 READERS: dict[str, Callable[[str, bytes, int | None], FloatArray]] = {"x3p": _x3p, "sdf": _sdf}
