@@ -491,6 +491,41 @@ def test_a_field_that_is_not_known_is_told(run: Run, monkeypatch: pytest.MonkeyP
     assert code == 1 and errors == "linecontact: cannot write out.npz: the pressure is infinite\n"
 
 
+def test_units_in_doubt_are_told_below_a_table_and_in_the_csv(run: Run, tmp_path: Path) -> None:
+    """Moduli in GPa by mistake."""
+    soft, file = lc.Material(210.0, 0.3), tmp_path / "out.csv"
+    bodies = lc.Flat(), lc.Ellipse.circle(10.0, (-1.5, 1.5))
+    scene = Scene(lc.Contact(*bodies, materials=(soft, soft)), (), UNITS, "roller")
+    code, text, _ = run(scene, "--load", "1:300:4", "--csv", file)
+    steep = [scene.contact.solve(load=load).is_steep for load in np.linspace(1.0, 300.0, 4)]
+    assert code == 0 and 0 < sum(steep) < 4
+    assert text.splitlines()[-2:] == ["", f"note: slopes exceed 0.3 in {sum(steep)} of 4, too steep for half-planes: check the units"]
+    with file.open(newline="") as of:
+        assert [row["is_steep"] for row in csv.DictReader(of)] == [str(one) for one in steep]
+    assert "note" not in run(roller(), "--load", "1:300:4")[1]
+    bare = Scene(lc.Contact(*bodies), (), UNITS, "")
+    assert "no modulus is given" in run(bare, "--load", "1e-3:2e-3:2")[1]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes end otherwise")
+def test_files_are_written_though_nobody_reads(tmp_path: Path) -> None:
+    """As with `linecontact solve ... | head -1`: the reader has gone before anything is printed."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text(re.findall(r"```toml\n(.*?)```", DOCS.read_text(), re.DOTALL)[0])
+    code = "import sys; from linecontact.command import main; sys.exit(main())"
+    files = [f"--{kind}={tmp_path / 'out'}.{kind}" for kind in ("csv", "npz", "vtk", "page")]
+    for load, names in (("500", 4), ("100:500:3", 6)):
+        for file in tmp_path.glob("out*"):
+            file.unlink()
+        read, write = os.pipe()
+        os.close(read)
+        arguments = [sys.executable, "-c", code, "solve", str(scene), "--load", load, *files]
+        done = subprocess.run(arguments, stdout=write, stderr=subprocess.PIPE, text=True, check=False)
+        os.close(write)
+        assert (done.returncode, done.stderr) == (0, "")
+        assert len(list(tmp_path.glob("out*"))) == names
+
+
 USAGE: list[tuple[list[str], list[dict[str, Any]], str]] = [
     (["--load", "many"], [], "'many': give a load, as 500, or first:last:count"),
     (["--load", "1:2"], [], "give a load"),
@@ -500,6 +535,8 @@ USAGE: list[tuple[list[str], list[dict[str, Any]], str]] = [
     (["--load", "1", "--csv", "scene.toml"], [], "two of the files are the same one"),
     (["--load", "1:2:2.5"], [], "give a load"),
     (["--load", "nan"], [], "give a load"),
+    (["--load", "1:2:100001"], [], "'1:2:100001' are 100001 loads, and at most 100000 are solved in one run"),
+    (["--load", "1:2:1e300"], [], "and at most 100000"),
     (["--load", "1:inf:3"], [], "give a load"),
     (["--load", "1", "--yield-stress", "0"], [], "'0' is no positive number"),
     (["--load", "1", "--yield-stress", "much"], [], "'much' is no positive number"),
@@ -519,6 +556,8 @@ def test_progress_is_for_terminals(run: Run, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(command, "_PROGRESS", 0.0)
     monkeypatch.setattr(Scene, "from_file", classmethod(lambda *_: roller()))
     assert run(roller(), "--load", "1:3:3")[2] == ""
+    # A log gets whole lines, if it is asked for.
+    assert run(roller(), "--load", "1:3:3", "--progress")[2] == "1 of 3 solved\n2 of 3 solved\n3 of 3 solved\n"
 
     class Terminal(io.StringIO):
         def isatty(self) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import io
 import math
+import os
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -29,8 +30,11 @@ _CODES = """exit codes:
   3  the scene file is missing or faulty
   4  a file cannot be written"""
 
-# Time between two lines of progress, in seconds: short for the eye, and long for a terminal.
+# Time between two lines of progress, in seconds: short for the eye, and long for a terminal. A log
+# gets a line for every tenth.
 _PROGRESS = 0.2
+# Most loads of a range: their solutions are kept until all of them are printed.
+_MOST_LOADS = 100_000
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -47,6 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     solve.add_argument("--npz", type=Path, help="write results, pressures and stresses for NumPy")
     solve.add_argument("--vtk", type=Path, help="write the stress below the surface for ParaView")
     solve.add_argument("--page", type=Path, help="write a page with a slider for the load")
+    solve.add_argument("--progress", action="store_true", help="show the progress, though it goes to no terminal")
     given = parser.parse_args(arguments)
     try:
         return _solve(given, solve)
@@ -71,6 +76,9 @@ def _loads(text: str) -> list[float]:
         first, last, count = map(float, text.split(":")) if ":" in text else (float(text), float(text), 1.0)
         several = count >= (1 if first == last else 2)
         if math.isfinite(first) and math.isfinite(last) and count.is_integer() and several:
+            if count > _MOST_LOADS:
+                reason = f"{text!r} are {count:.0f} loads, and at most {_MOST_LOADS} are solved in one run"
+                raise argparse.ArgumentTypeError(reason)
             return [float(load) for load in np.linspace(first, last, int(count))]
     except ValueError:
         pass
@@ -100,12 +108,16 @@ def _solve(given: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
-    rows = _rows(scene, controls, given.yield_stress)
-    if len(rows) > 1:
-        print(table(scene, rows, given.yield_stress), flush=True)
-    elif rows[0].solution is not None:
-        print(sheet(scene, rows[0], given.yield_stress), flush=True)
+    rows = _rows(scene, controls, given.yield_stress, given.progress)
     codes = [_written(given, scene, rows)]
+    try:
+        if len(rows) > 1:
+            print(table(scene, rows, given.yield_stress), flush=True)
+        elif rows[0].solution is not None:
+            print(sheet(scene, rows[0], given.yield_stress), flush=True)
+    except BrokenPipeError:
+        # Whoever reads has seen enough, as `head` has. Python writes the rest when it ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     for row in rows:
         if row.error is not None:
             is_control = isinstance(row.error, (InvalidLoadError, InvalidMomentError))
@@ -114,15 +126,20 @@ def _solve(given: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
     return max(codes)
 
 
-def _rows(scene: Scene, controls: Sequence[Mapping[str, Any]], yield_stress: float | None) -> list[Row]:
+def _rows(
+    scene: Scene, controls: Sequence[Mapping[str, Any]], yield_stress: float | None, is_asked: bool
+) -> list[Row]:
     """Solves the controls one by one: `sweep` has no von Mises stress, and controls of one kind."""
-    rows, due, shows = list[Row](), time.monotonic() + _PROGRESS, sys.stderr.isatty()
+    is_terminal = sys.stderr.isatty()
+    every = _PROGRESS if is_terminal else 10.0 * _PROGRESS
+    rows, due = list[Row](), time.monotonic() + every
     for control in controls:
         rows.append(solved(scene, control, yield_stress))
-        if shows and time.monotonic() >= due:
-            due += _PROGRESS
-            print(f"\r{len(rows)} of {len(controls)} solved", end="", file=sys.stderr, flush=True)
-    print("\r" + 40 * " " + "\r" if shows else "", end="", file=sys.stderr, flush=True)
+        if (is_terminal or is_asked) and time.monotonic() >= due:
+            due += every
+            start, end = ("\r", "") if is_terminal else ("", "\n")
+            print(f"{start}{len(rows)} of {len(controls)} solved", end=end, file=sys.stderr, flush=True)
+    print("\r" + 40 * " " + "\r" if is_terminal else "", end="", file=sys.stderr, flush=True)
     return rows
 
 

@@ -26,17 +26,19 @@ _REACH, _FIRST = 2.0, 1e-3
 def write_csv(path: Path, rows: Sequence[Row], units: Mapping[str, str]) -> None:
     """Writes a line for each control: numbers, with their units in the heads, and the error.
 
+    `is_steep` tells that the slopes are too large for half-planes, as with units that are mixed.
     If a body has a layer, `max_shear_in` and its like name the materials of the largest stresses.
     """
     heads = [f"{name} [{unit}]" if (unit := units.get(kind, "")) else name for name, (kind, _) in NUMBERS.items()]
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         places = _places(rows)
-        table.writerow(["prescribed", *heads, *places, "error"])
+        table.writerow(["prescribed", *heads, *places, "is_steep", "error"])
         for number, row in enumerate(rows):
             error = type(row.error).__name__ if row.error else ""
             words = [places[name][number] for name in places]
-            table.writerow([described(row.control), *row.numbers.values(), *words, error])
+            steep = "" if row.solution is None else row.solution.is_steep
+            table.writerow([described(row.control), *row.numbers.values(), *words, steep, error])
 
 
 def write_npz(path: Path, rows: Sequence[Row]) -> None:

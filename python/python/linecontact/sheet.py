@@ -241,11 +241,23 @@ def _notes(row: Row, units: dict[str, str]) -> list[str]:
         (bool(held), "note", f"held at x = {', '.join(held)}"),
         (materials(solution.contact)[0].ratio is None, "note", "without materials Tresca is for Poisson's ratios from 1/4"),
         (len(row.missing) > 0, "not known of layers", ", ".join(row.missing)),
-        (not solution.contact.has_modulus, "note", "no modulus is given: pressures are those of kappa = 1"),
         *((found is not None, "note", words) for words in conform),
-        (solution.is_steep and found is None, "note", "slopes exceed 0.3, too steep for half-planes: check the units"),
+        *((True, "note", words) for words in _units_in_doubt([row])),
     ]
     return [_line(label, words) for holds, label, words in notes if holds]
+
+
+def _units_in_doubt(rows: Sequence[Row]) -> list[str]:
+    """Returns what makes the units doubtful, and in how many of several rows."""
+    solutions = [row.solution for row in rows if row.solution is not None]
+    notes = []
+    if solutions and not solutions[0].contact.has_modulus:
+        notes.append("no modulus is given: pressures are those of kappa = 1")
+    # Bodies that conform are steep in any units, and told so.
+    if steep := sum(solution.is_steep and solution.conformity is None for solution in solutions):
+        where = f" in {steep} of {len(rows)}" if len(rows) > 1 else ""
+        notes.append(f"slopes exceed 0.3{where}, too steep for half-planes: check the units")
+    return notes
 
 
 def table(scene: Scene, rows: Sequence[Row], yield_stress: float | None) -> str:
@@ -264,6 +276,8 @@ def table(scene: Scene, rows: Sequence[Row], yield_stress: float | None) -> str:
         lines.append(f"{words[0]:>{wide}}{''.join(cells)}".rstrip())
     if yield_stress is not None:
         lines += ["", f"S: safety against yield at {yield_stress:g} {scene.units.get('pressure', '')}".rstrip()]
+    if doubts := _units_in_doubt(rows):
+        lines += ["", *(f"note: {words}" for words in doubts)]
     return "\n".join(lines)
 
 
