@@ -140,7 +140,8 @@ impl<T: Real> FiniteRoller<T> {
     /// mrad, the moment of a roller of 10 mm is off by 2 % with 41 slices, by 0.5 % with 101.
     ///
     /// # Errors
-    /// [`InputError::InvalidRoller`]; [`InputError::Profile`] for a faulty relief;
+    /// [`InputError::InvalidRoller`]; [`InputError::InvalidRelief`] for a relief that is negative
+    /// somewhere and nowhere positive; [`InputError::Profile`] for a faulty relief;
     /// [`SolveError::OutsideBodies`] for one that is too short; [`SolveError::Inversion`].
     pub fn new(
         table: SpringTable<T>,
@@ -162,7 +163,11 @@ impl<T: Real> FiniteRoller<T> {
             }
             Ok([x, sampler.height(&gap, x)?])
         };
-        let slices = (0..slices).map(slice).collect::<Result<_, ContactError<T>>>()?;
+        let slices = (0..slices).map(slice).collect::<Result<Vec<_>, ContactError<T>>>()?;
+        let is_beyond = !slices.iter().any(|[_, height]| *height > T::zero());
+        if let Some(&[z, height]) = slices.iter().find(|at| is_beyond && at[1] < T::zero()) {
+            return Err(InputError::InvalidRelief { z, height }.into());
+        }
         Ok(Self { table, length, slices })
     }
 

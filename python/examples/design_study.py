@@ -1,10 +1,11 @@
 """A design study of a million roller contacts: the best crowning for all loads and misalignments.
 
+    pip install './python[cluster,plot]'
     python design_study.py results --local 2
     python design_study.py results --scheduler tcp://node1:8786
 
-The first line starts two workers here, the second uses a Dask cluster. After an interruption the
-same line continues the study.
+The second line starts two workers here, the third uses a Dask cluster, each of whose workers needs
+the first line, too. After an interruption the same line continues the study.
 
 The plane of the contact contains the axis of the roller: the generatrix, with logarithmic crowning,
 is pressed on a flat, in plane strain. Lengths are in mm, angles in radians, loads in N/mm,
@@ -29,6 +30,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 from importlib import metadata
+from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
@@ -47,6 +49,9 @@ QUANTITIES = ("peak_pressure", "half_width", "centre")
 AHEAD = 2
 # Number of further attempts at a block whose worker could not write it.
 RETRIES = 2
+# Packages of the extra `cluster`.
+NEEDED = ("dask", "distributed", "pyarrow")
+INSTALL = "pip install './python[cluster]'"
 
 
 class Range(NamedTuple):
@@ -177,6 +182,11 @@ def read_all(study: Study, folder: Path) -> Iterator[dict[str, npt.NDArray[Any]]
     return (read_block(study, folder, block) for block in blocks(study))
 
 
+def missing(needed: Sequence[str] = NEEDED) -> list[str]:
+    """Lists the packages that are not installed."""
+    return [name for name in needed if find_spec(name) is None]
+
+
 def unfinished_blocks(study: Study, folder: Path) -> list[int]:
     """Lists the blocks still to be solved: blocks without a file, or with a damaged one.
 
@@ -224,15 +234,19 @@ class Told:
 def run(client: Any, study: Study, folder: Path, told: Callable[[int, int, int], object] | None = None) -> int:
     """Solves the remaining blocks of a study on a cluster, and returns their number.
 
-    The client holds a few blocks for each thread of the cluster, whatever the size of the study.
-    Workers may join and leave. A block whose worker dies is given to another.
+    Workers that lack a package are told before any block is solved. The client holds a few blocks
+    for each thread of the cluster, whatever the size of the study. Workers may join and leave. A
+    block whose worker dies is given to another.
     """
+    client.wait_for_workers(1)
+    for worker, lacks in client.run(missing).items():
+        if lacks:
+            raise RuntimeError(f"the worker {worker} lacks {', '.join(lacks)}: {INSTALL} there")
     from distributed import as_completed
 
     left = unfinished_blocks(study, folder)
     blocks_left = iter(left)
     running = as_completed()
-    client.wait_for_workers(1)
 
     def fill() -> None:
         free = AHEAD * max(1, sum(client.nthreads().values())) - running.count()
@@ -321,8 +335,6 @@ def draw(found: Optimum, file: Path) -> None:
 
 
 def main() -> None:
-    from distributed import Client, LocalCluster
-
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
     parser.add_argument("folder", type=Path, help="of the results; workers have to see it")
     where = parser.add_mutually_exclusive_group()
@@ -331,6 +343,10 @@ def main() -> None:
     parser.add_argument("--points", type=int, nargs=3, default=(100, 100, 100), metavar=("C", "M", "L"))
     parser.add_argument("--block", type=int, default=4096, metavar="ROWS")
     given = parser.parse_args()
+    if lacks := missing():
+        sys.exit(f"missing here: {', '.join(lacks)}: {INSTALL}")
+    from distributed import Client, LocalCluster
+
     folder = given.folder.resolve()
     study = Study.of(given.points, given.block)
     if given.scheduler:

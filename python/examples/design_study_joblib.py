@@ -1,5 +1,6 @@
 """The design study with joblib, on one machine; it continues after an interruption too.
 
+pip install './python[cluster]' joblib
 python design_study_joblib.py results
 """
 

@@ -159,6 +159,7 @@ table! {
     BothRigid {};
     NoMaterials {};
     InvalidReference { length };
+    InvalidRelief { z, height };
     InvalidRoller { length, slices, most };
     InvalidFriction { coefficient };
     InvalidSlipFriction { friction };
@@ -195,6 +196,7 @@ table! {
     InJump { wanted, load, below, above };
     ApproachTooLarge { wanted, approach, load };
     Falls { quantity, load, rate };
+    LoadBeyondBodies { load, at, ends };
     LoadBeyondSlices { load, at, ends };
     OneSlice { z };
     RollerNotFound { source };

@@ -464,7 +464,9 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     ),
     (lambda: solved(quadrature=lc.Midpoint()).load_rates(), "NoLoadDerivativeError", {}),
     (lambda: HILLS.solve(load=0.1).uncertainty(), "NoUncertaintyError", {}),
+    (lambda: contact().solve(load=0.5, moment=10.0), "LoadBeyondBodiesError", {"load": 0.5, "at": 20.0}),
     (lambda: table().at(1e9), "OutsideTableError", {"approach": 1e9}),
+    (lambda: roller(relief=lc.Parabola(-1.0, (-1.0, 1.0))), "InvalidReliefError", {"z": -0.95, "height": -0.45125}),
     (lambda: roller(slices=-3), "InvalidRollerError", {"slices": 0, "length": 2.0}),
     (lambda: roller().at(1e9), "SliceOutsideTableError", {"approach": 1e9, "z": -0.95}),
     (lambda: roller().under_moment(5.0, 5.0), "LoadBeyondSlicesError", {"at": 1.0, "load": 5.0}),
@@ -611,6 +613,26 @@ def test_what_is_prescribed_must_go_together() -> None:
     for given in [*wrong, {"load": 1.0, "half_width": 1.0}]:
         with pytest.raises(TypeError, match="prescribed are"):
             contact().solve(**given)
+    with pytest.raises(TypeError, match=r"approach, .* give references=References\(x, lower, upper\), too"):
+        contact().solve(approach=1.0)
+    without_load: list[dict[str, Any]] = [{"moment": 1.0}, {"moment": 1.0, "about": 0.5}, {"centre_of_pressure": 0.0}]
+    for wanted in without_load:
+        with pytest.raises(TypeError, match="give load=, too"):
+            contact().solve(**wanted)
+    # Numbers without a name: the signatures do not allow them, but users do not see those first.
+    any_: Any = lc
+    calls: list[Callable[[], Any]] = [
+        lambda: any_.solve(FLAT, BODY, 2.5),
+        lambda: any_.Solver().solve(contact(), 2.5),
+        lambda: any_.Contact(FLAT, BODY).solve(2.5),
+        lambda: any_.sweep(contact(), 2.5),
+        lambda: any_.Contact(FLAT, BODY).partial_slip(2.5),
+    ]
+    for call in calls:
+        with pytest.raises(TypeError, match=r"takes 2\.5 by name, as in load=2\.5"):
+            call()
+    with pytest.raises(TypeError, match=r"Contact takes 1 by name, as in \w+=1"):
+        any_.Contact(FLAT, BODY, 1)
     with pytest.raises(TypeError, match="say the same"):
         lc.Contact(FLAT, BODY, kappa=1.0, contact_modulus=1.0)
     with pytest.raises(TypeError, match="exclude"):

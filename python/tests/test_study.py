@@ -151,3 +151,24 @@ def test_another_version_does_not_go_on() -> None:
     old = Study(SMALL.crownings, SMALL.misalignments, SMALL.loads, block_rows=10, version="0.0.1")
     with pytest.raises(RuntimeError, match=r"0\.0\.1"):
         ds.solve_block(old, 0)
+
+
+def test_what_is_missing_is_said_before_the_study_starts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ds, "find_spec", lambda name: None if name in ("dask", "pyarrow") else name)
+    monkeypatch.setattr("sys.argv", ["design_study.py", str(tmp_path / "results")])
+    with pytest.raises(SystemExit, match=r"missing here: dask, pyarrow: pip install './python\[cluster\]'"):
+        ds.main()
+    assert not (tmp_path / "results").exists()
+
+
+def test_a_worker_that_lacks_a_package_is_named(tmp_path: Path) -> None:
+    class Client:
+        def wait_for_workers(self, count: int) -> None:
+            assert count == 1
+
+        def run(self, asked: object) -> dict[str, list[str]]:
+            assert asked is ds.missing
+            return {"tcp://node1:1": [], "tcp://node2:1": ["pyarrow"]}
+
+    with pytest.raises(RuntimeError, match="tcp://node2:1 lacks pyarrow"):
+        ds.run(Client(), SMALL, tmp_path)

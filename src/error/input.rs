@@ -312,6 +312,18 @@ pub enum InputError<T: Real> {
         /// Largest number of slices.
         most: usize,
     },
+    /// The relief of a roller is nowhere positive: it has the wrong sign.
+    #[error(
+        "the relief is {} at z = {} and nowhere positive: it is the distance that the roller recedes from the raceway, \
+         as by Crowning; flip the body",
+        six(*height), six(*z)
+    )]
+    InvalidRelief {
+        /// First place along the axis at which it is negative.
+        z: T,
+        /// Relief there, a length.
+        height: T,
+    },
     /// The coefficient of friction is not finite.
     #[error("the coefficient of friction is {}: it must be finite", six(*coefficient))]
     InvalidFriction {

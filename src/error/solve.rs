@@ -415,6 +415,20 @@ pub enum SolveError<T: Real> {
         /// Middles of the first and the last slice.
         ends: [T; 2],
     },
+    /// The load acts beyond the bodies: no pressure between them has this moment.
+    #[error(
+        "the load {} acts at x = {}, where the moment or the centre of pressure puts it, beyond the bodies, which both \
+         cover only {}: lower the moment, move the load inward, or extend their domains",
+        six(*load), apart(*at, &[ends.left, ends.right]), span(ends.left, ends.right)
+    )]
+    LoadBeyondBodies {
+        /// Load per unit length.
+        load: T,
+        /// Place at which it acts: `x₀ + M/F`.
+        at: T,
+        /// Ends of the bodies.
+        ends: Ends<T>,
+    },
     /// A single slice of a roller bears the load: then the moment does not determine the
     /// misalignment.
     #[error(

@@ -58,7 +58,7 @@ impl<T: Real> ParametricProfile<T> for Line<T> {
 ///
 /// # Errors
 /// [`PiecewiseError::InPiece`] with [`ProfileError::Parameter`] for a slope that is not finite, or
-/// [`ProfileError::Domain`] for a reach that is not positive and finite.
+/// a reach that is not positive and finite.
 ///
 /// ```
 /// use linecontact::profile::wedge;
@@ -75,6 +75,10 @@ pub fn wedge<T: Real>(
     slopes: [T; 2],
     reach: T,
 ) -> Result<Piecewise<T, Line<T>>, PiecewiseError<T>> {
-    let part = |i: usize, domain| Line::new(slopes[i], domain).map_err(PiecewiseError::in_piece(i));
+    let part = |i: usize, domain| {
+        finite("the reach", reach, reach > T::zero(), "positive and finite")
+            .and_then(|()| Line::new(slopes[i], domain))
+            .map_err(PiecewiseError::in_piece(i))
+    };
     Piecewise::new(vec![part(0, [-reach, T::zero()])?, part(1, [T::zero(), reach])?])
 }

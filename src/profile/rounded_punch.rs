@@ -1,6 +1,6 @@
 //! A flat punch with rounded edges.
 
-use super::{Parabola, Piecewise, PiecewiseError, Placed, Placement};
+use super::{Parabola, Piecewise, PiecewiseError, Placed, Placement, finite};
 use crate::Real;
 
 /// Half a parabola, a flat and the other half of the parabola.
@@ -15,8 +15,7 @@ type Parts<T> = Piecewise<T, Placed<T, Parabola<T>>>;
 ///
 /// # Errors
 /// [`PiecewiseError::InPiece`] with [`ProfileError::Parameter`](super::ProfileError) unless R and
-/// 1/R are finite and `flat` is finite, or [`ProfileError::Domain`](super::ProfileError) unless
-/// `0 < flat < reach`.
+/// 1/R are finite and `0 < flat < reach`.
 ///
 /// ```
 /// use linecontact::profile::rounded_punch;
@@ -38,9 +37,12 @@ pub fn rounded_punch<T: Real>(flat: T, radius: T, reach: T) -> Result<Parts<T>, 
         let placed = curve.and_then(|curve| Placed::new(curve, placement));
         placed.map_err(PiecewiseError::in_piece(piece))
     };
+    let rounds =
+        finite("the reach", reach, reach > flat, "finite and more than the half-width of the flat");
+    let is_flat = finite("the half-width of the flat", flat, flat > zero, "positive and finite");
     Piecewise::new(vec![
-        part(0, Parabola::new(radius, [-edge, zero]), -flat)?,
-        part(1, Parabola::straight([-flat, flat]), zero)?,
+        part(0, rounds.and_then(|()| Parabola::new(radius, [-edge, zero])), -flat)?,
+        part(1, is_flat.and_then(|()| Parabola::straight([-flat, flat])), zero)?,
         part(2, Parabola::new(radius, [zero, edge]), flat)?,
     ])
 }

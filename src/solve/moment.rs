@@ -60,8 +60,7 @@ pub(super) fn find<T: Real>(
     let ends = contact.ends();
     // Otherwise all pressure would lie on one side of the line.
     if edges.are_sought() && !(at > ends.left && at < ends.right) {
-        let range = [ends.left, ends.right];
-        return Err(SolveError::OutsideBodies { x: at, range }.into());
+        return Err(SolveError::LoadBeyondBodies { load, at, ends }.into());
     }
     let mut found = topology::find(contact, conditions, work)?;
     let contacts = work.integrator.contacts(&found.interval);

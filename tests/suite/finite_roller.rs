@@ -387,6 +387,14 @@ fn rollers_that_cannot_be_made_are_refused() {
             "{length} {slices}"
         );
     }
+    // A crown upside down is refused, a hollow whose ends recede nowhere near is none of it.
+    let crown = Parabola::new(-1e3, [-5.0, 5.0]).unwrap();
+    let ContactError::Input(InputError::InvalidRelief { z, height }) = made(10.0, 5, &crown) else {
+        panic!("a relief of the wrong sign")
+    };
+    assert_eq!((z, height), (-4.0, -8e-3));
+    let hollow = Placed::new(crown, Placement::default().shifted(0.0, 5e-3)).unwrap();
+    assert!(FiniteRoller::new(table.clone(), 10.0, 5, &hollow).is_ok());
     let short = Parabola::new(1e3, [-4.0, 4.0]).unwrap();
     let error = made(10.0, 30, &short);
     assert!(matches!(error, ContactError::Solve(SolveError::OutsideBodies { .. })), "{error}");

@@ -322,6 +322,10 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["2.5 to 3.5, not 4.5", "larger loads"],
         ),
         (
+            ContactError::Input(InputError::InvalidRelief { z: 3.5, height: -0.25 }),
+            &["-0.25 at z = 3.5", "flip"],
+        ),
+        (
             ContactError::Input(InputError::InvalidRoller { length: -1.5, slices: 0, most: 99 }),
             &["length -1.5", "0 slices", "positive", "1 to 99"],
         ),
@@ -332,6 +336,14 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
                 range: [2.5, 3.5],
             }),
             &["z = 0.5", "4.5", "2.5 to 3.5", "larger loads", "misalignment"],
+        ),
+        (
+            ContactError::Solve(SolveError::LoadBeyondBodies {
+                load,
+                at: 5.5,
+                ends: Ends { left: -4.5, right: 4.5 },
+            }),
+            &["acts at x = 5.5", "moment", "-4.5 to 4.5", "move the load inward"],
         ),
         (
             ContactError::Solve(SolveError::LoadBeyondSlices { load, at: 5.5, ends: [-4.5, 4.5] }),

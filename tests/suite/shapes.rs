@@ -332,15 +332,22 @@ fn what_is_no_shape_is_refused() {
         wrong(Crowning::new(1.0, 1.0, domain).err());
         wrong(Involute::new(1.0, 0.0, domain).err());
     }
-    let in_piece = |made: Option<PiecewiseError<f64>>, at: usize| match made {
-        Some(PiecewiseError::InPiece { piece, .. }) => assert_eq!(piece, at),
+    let in_piece = |made: Option<PiecewiseError<f64>>, at: usize, of: &str| match made {
+        Some(PiecewiseError::InPiece {
+            piece,
+            source: ProfileError::Parameter { name, .. },
+            ..
+        }) => {
+            assert_eq!((piece, name), (at, of));
+        }
         other => panic!("{other:?}"),
     };
-    in_piece(wedge([-0.1, f64::NAN], 1.0).err(), 1);
-    in_piece(wedge([-0.1, 0.1], -1.0).err(), 0);
-    in_piece(rounded_punch(1.0, 1.0, 0.5).err(), 0);
-    in_piece(rounded_punch(-0.5, 1.0, 0.5).err(), 1);
-    in_piece(rounded_punch(0.5, 0.0, 1.0).err(), 0);
+    in_piece(wedge([-0.1, f64::NAN], 1.0).err(), 1, "the slope");
+    in_piece(wedge([-0.1, 0.1], -1.0).err(), 0, "the reach");
+    in_piece(rounded_punch(1.0, 1.0, 0.5).err(), 0, "the reach");
+    in_piece(rounded_punch(1.0, 1.0, f64::NAN).err(), 0, "the reach");
+    in_piece(rounded_punch(-0.5, 1.0, 0.5).err(), 1, "the half-width of the flat");
+    in_piece(rounded_punch(0.5, 0.0, 1.0).err(), 0, "the radius");
 
     // A joined body is not smooth, and a body turned too far turns back.
     let joined = wedge([-0.1, 0.1], 1.0).unwrap();

@@ -354,10 +354,11 @@ fn what_cannot_be() {
         }
     }
     // Beyond the body, and so close to its end that there is no space for the contact.
-    assert!(matches!(
-        error(&contact, given(0.1, 1.1)),
-        ContactError::Solve(SolveError::OutsideBodies { .. })
-    ));
+    let ends = Ends { left: -1.0, right: 1.0 };
+    for control in [given(0.5, 1.5), moment(0.5, 0.75)] {
+        let beyond = SolveError::LoadBeyondBodies { load: 0.5, at: 1.5, ends };
+        assert_eq!(error(&contact, control), ContactError::Solve(beyond));
+    }
     for (load, at) in [(0.1, 0.9), (0.02, -0.95), (0.4, 0.5)] {
         match error(&contact, given(load, at)) {
             ContactError::Solve(SolveError::TiltNotFound {

@@ -90,13 +90,21 @@ def refuse_unknown(given: Collection[str], allowed: Sequence[str], of: str) -> N
 
 
 def named(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Result]:
-    """Decorates a function so that it answers an unknown keyword argument with those it has."""
-    allowed = [name for name in inspect.signature(function).parameters if name != "self"]
+    """Decorates a function so that it tells what arguments it has, and which are given by name."""
+    parameters = inspect.signature(function).parameters.values()
+    allowed = [one.name for one in parameters if one.name != "self"]
+    by_name = [one.name for one in parameters if one.kind is one.KEYWORD_ONLY]
+    takes_more = any(one.kind is one.VAR_KEYWORD for one in parameters)
+    places = sum(one.kind is one.POSITIONAL_OR_KEYWORD for one in parameters)
+    such = "load" if takes_more or "load" in by_name else next(iter(by_name), "")
     of = function.__qualname__.removesuffix(".__init__")
 
     @wraps(function)
     def checked(*args: _Arguments.args, **given: _Arguments.kwargs) -> _Result:
-        refuse_unknown(given, allowed, of)
+        if such and len(args) > places:
+            raise TypeError(f"{of} takes {args[places]!r} by name, as in {such}={args[places]!r}")
+        if not takes_more:
+            refuse_unknown(given, allowed, of)
         return function(*args, **given)
 
     return checked

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
 
 from . import _native
@@ -466,12 +466,20 @@ def _control(
         raise TypeError("approach and stiffness are between references: give them")
     found = _CONTROLS.get(frozenset(given))
     if found is None or (found[0] == "approach" and references is None):
-        raise TypeError(
-            f"prescribed are {', '.join(given) or 'no numbers'}: give load, half_width, peak_pressure, approach with "
-            "references, load with moment (and about), or load with centre_of_pressure"
-        )
+        raise TypeError(_refusal(given))
     kind, names = found
     return kind, [given.get(name, 0.0) for name in names]
+
+
+def _refusal(given: Collection[str]) -> str:
+    if set(given) == {"approach"}:
+        return "prescribed are approach, which is between references: give references=References(x, lower, upper), too"
+    if given and {"moment", "about", "centre_of_pressure"}.issuperset(given):
+        return f"prescribed are {', '.join(given)}, which is where the load acts: give load=, too"
+    return (
+        f"prescribed are {', '.join(given) or 'no numbers'}: give load, half_width, peak_pressure, approach with "
+        "references, load with moment (and about), or load with centre_of_pressure"
+    )
 
 
 def _prescribed(
@@ -731,6 +739,7 @@ class Contact(Unchanging):
         )
         return Solution(self._scene.solve(prescribed), self, prescribed)
 
+    @named
     def partial_slip(
         self, *, friction: float, force: float, tension: float = 0.0, **prescribed: Unpack[Prescribed]
     ) -> PartialSlip:

@@ -582,6 +582,21 @@ class InvalidRollerError(InputError):
     most: int
 
 
+class InvalidReliefError(InputError):
+    """The relief of a roller is nowhere positive: it has the wrong sign.
+
+    Attributes
+    ----------
+    z : float
+        First place along the axis at which it is negative.
+    height : float
+        Relief there, a length.
+    """
+
+    z: float
+    height: float
+
+
 class InvalidFrictionError(InputError):
     """The coefficient of friction is not finite.
 
@@ -1161,6 +1176,24 @@ class LoadBeyondSlicesError(SolveError):
         Place along the axis at which it acts, moment over load: a length.
     ends : tuple[float, float]
         Middles of the first and the last slice.
+    """
+
+    load: float
+    at: float
+    ends: tuple[float, float]
+
+
+class LoadBeyondBodiesError(SolveError):
+    """The load acts beyond the bodies: no pressure between them has this moment.
+
+    Attributes
+    ----------
+    load : float
+        Load per unit length.
+    at : float
+        Place at which it acts: `x₀ + M/F`.
+    ends : tuple[float, float]
+        Ends of the bodies.
     """
 
     load: float

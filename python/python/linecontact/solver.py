@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from . import _native
-from ._numbers import FloatArray, Numbers, as_number, as_numbers, as_range, refuse_unknown
+from ._numbers import FloatArray, Numbers, as_number, as_numbers, as_range, named, refuse_unknown
 from .bodies import Body
 from .contact import Contact, Prescribed, References, Settings, _wanted
 from .slipping import PartialSlip, acting
@@ -22,6 +22,7 @@ class Given(Settings, Prescribed, total=False):
     """The keyword arguments of a contact and of its solve."""
 
 
+@named
 def solve(lower: Body, upper: Body, **given: Unpack[Given]) -> Solution:
     """Creates a contact and solves it, in one call.
 
@@ -73,11 +74,13 @@ class Solver:
     def __reduce__(self) -> tuple[Any, ...]:
         return Solver, ()
 
+    @named
     def solve(self, contact: Contact, **prescribed: Unpack[Prescribed]) -> Solution:
         """Finds a contact as `Contact.solve` does, but starts from the last contact."""
         wanted = _wanted(prescribed)
         return Solution(self._solver.solve(contact._scene, wanted), contact, wanted)
 
+    @named
     def partial_slip(
         self,
         contact: Contact,

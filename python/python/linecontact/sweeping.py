@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._numbers import as_numbers
+from ._numbers import as_numbers, named
 from .contact import Contact, References, _control
 
 if TYPE_CHECKING:
@@ -88,6 +88,7 @@ class Columns(dict[str, npt.NDArray[Any]]):
         return DataFrame({**columns, **self})
 
 
+@named
 def sweep(
     contacts: Contact | Sequence[Contact],
     *,
