@@ -11,11 +11,9 @@
 mod drawing;
 
 use drawing::{BLACK, BLUE, Panel, Points, RED, RGBColor, SeriesLabelPosition, mix};
-use linecontact::profile::{Crowning, Ellipse, Placed, Placement};
+use linecontact::profile::{Crowning, Outline};
 use linecontact::reference::{self, ClosedForm, UnequalRadii};
-use linecontact::{
-    Contact, ContactError, Control, Flat, Interval, ParametricProfile, Piecewise, Solution,
-};
+use linecontact::{Contact, ContactError, Control, Flat, Interval, ParametricProfile, Solution};
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -80,38 +78,13 @@ fn roller() -> Result<Vec<Panel>, Box<dyn Error>> {
     Ok(vec![shape, drawn])
 }
 
-/// Body of arcs without corners between them.
-type Arcs = Piecewise<f64, Placed<f64, Ellipse<f64>>>;
-
-/// Joins arcs without a corner, one or several on either side of x = 0: each begins where the last
-/// one ended, in the same direction. Each arc is given by radius and length in x, from the middle
-/// outwards; a negative radius bulges upwards.
-fn arcs(sides: [&[(f64, f64)]; 2]) -> Result<Arcs, Box<dyn Error>> {
-    let mut parts = Vec::new();
-    for (side, outwards) in sides.into_iter().zip([-1.0, 1.0]) {
-        let (mut x, mut y, mut slope) = (0.0, 0.0, 0.0f64);
-        for &(radius, length) in side {
-            // The slope gives the angle, with the sign of the radius.
-            let from = (slope * radius.signum()).atan();
-            let to = (from.sin() + outwards * length / radius.abs()).asin();
-            let arc = Ellipse::circle(radius, [from.min(to), from.max(to)])?;
-            let (start, stop) = (arc.at(from), arc.at(to));
-            let shift = Placement::default().shifted(x - start.x, y - start.y);
-            parts.push(Placed::new(arc, shift)?);
-            (x, y, slope) = (x + stop.x - start.x, y + stop.y - start.y, stop.dy / stop.dx);
-        }
-        if outwards < 0.0 {
-            parts.reverse();
-        }
-    }
-    Ok(Piecewise::new(parts)?)
-}
-
 fn wheel() -> Result<Vec<Panel>, Box<dyn Error>> {
     // Arcs of 300, 80 and 13 mm on the rail; on the wheel a hollow tread of 500 mm, and bulging
     // ones of 400 mm.
-    let rail = arcs([&[(-300.0, 25.0)], &[(-80.0, 15.0), (-13.0, 8.0)]])?;
-    let tread = arcs([&[(-500.0, 20.0), (400.0, 15.0)], &[(400.0, 30.0)]])?;
+    let middle = || Outline::from([0.0, 0.0]);
+    let rail = middle().arc(-80.0, 15.0).arc(-13.0, 8.0).left(middle().arc(-300.0, 25.0));
+    let tread = middle().arc(400.0, 30.0).left(middle().arc(-500.0, 20.0).arc(400.0, 15.0));
+    let (rail, tread) = (rail.build()?, tread.build()?);
     let contact = Contact::new(&rail, &tread)?.contact_modulus(MODULUS).certified(true);
     let combined = |rail: f64, tread: f64| 1.0 / (1.0 / rail + 1.0 / tread);
     let radii = [combined(300.0, -500.0), combined(80.0, 400.0)];

@@ -27,7 +27,8 @@
 //! and Example 2 of the paper has κ = π/2.
 //!
 //! # Contents
-//! - [`profile`]: bodies, from a closure, a struct of your own, built-in shapes, or joined pieces.
+//! - [`profile`]: bodies, from a closure, a struct of your own, built-in shapes, lines and arcs of
+//!   a drawing, or joined pieces.
 //! - [`check_derivatives`]: a check that X' and Y' written by hand are the derivatives of X and Y.
 //!   With the feature `autodiff` they need not be written, and solutions have derivatives by any
 //!   parameter.

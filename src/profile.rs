@@ -16,6 +16,7 @@
 //! | [`Crowning`] | `-C ln(1 - X²/l²)` | `X` |
 //! | [`wedge`] | two lines | joined |
 //! | [`rounded_punch`] | a flat between two half parabolas | joined |
+//! | [`Outline`] | lines and arcs from a drawing | joined |
 //! | [`Spline`] | through measured points, or near them | `X`, joined |
 //!
 //! Each vertex is at the origin; convex shapes open upwards. [`Placed`] moves, turns, mirrors,
@@ -48,6 +49,7 @@ mod flat;
 mod involute;
 mod line;
 mod noise;
+mod outline;
 mod parabola;
 mod piece;
 mod piecewise;
@@ -67,6 +69,7 @@ pub use flat::Flat;
 pub use involute::Involute;
 pub use line::{Line, wedge};
 pub(crate) use noise::Noise;
+pub use outline::{Outline, Segment};
 pub use parabola::Parabola;
 pub use piece::Piece;
 pub(crate) use piece::first_turn;

@@ -232,6 +232,7 @@ table! {
 table! {
     PiecewiseError, "Piecewise", PIECEWISE, transparent: [];
     InPiece { piece, source };
+    InSegment { segment, source };
     Tolerance { tolerance };
     NoPieces {};
     Gap { breakpoint, left, right };

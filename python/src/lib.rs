@@ -8,6 +8,7 @@ mod errors;
 mod files;
 mod finite_roller;
 mod gradient;
+mod outline;
 mod pair;
 mod profile;
 mod quantity;
@@ -27,6 +28,8 @@ mod _native {
     use super::finite_roller::FiniteRoller;
     #[pymodule_export]
     use super::gradient::{gradient, parameters};
+    #[pymodule_export]
+    use super::outline::outline;
     #[pymodule_export]
     use super::pair::Pair;
     #[pymodule_export]

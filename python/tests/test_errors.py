@@ -466,6 +466,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (lambda: HILLS.solve(load=0.1).uncertainty(), "NoUncertaintyError", {}),
     (lambda: contact().solve(load=0.5, moment=10.0), "LoadBeyondBodiesError", {"load": 0.5, "at": 20.0}),
     (lambda: table().at(1e9), "OutsideTableError", {"approach": 1e9}),
+    (lambda: lc.Outline().arc(0.0, 1.0).body(), "PiecewiseInSegmentError", {"segment": 1, "source": "ProfileParameterError"}),
     (lambda: roller(relief=lc.Parabola(-1.0, (-1.0, 1.0))), "InvalidReliefError", {"z": -0.95, "height": -0.45125}),
     (lambda: roller(slices=-3), "InvalidRollerError", {"slices": 0, "length": 2.0}),
     (lambda: roller().at(1e9), "SliceOutsideTableError", {"approach": 1e9, "z": -0.95}),

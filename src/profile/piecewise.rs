@@ -262,6 +262,14 @@ pub enum PiecewiseError<T: Real> {
         /// Fault of the piece.
         source: ProfileError<T>,
     },
+    /// A segment of an [`Outline`](super::Outline) cannot be drawn.
+    #[error("segment {segment} of the outline: {source}")]
+    InSegment {
+        /// Number of the line or arc, as drawn, from 1; of the half to which it belongs.
+        segment: usize,
+        /// Fault of the segment, or of the corner in front of it.
+        source: ProfileError<T>,
+    },
     /// The tolerance is negative, NaN or infinite.
     #[error("tolerance {} is out of range: use a finite number >= 0", six(*tolerance))]
     Tolerance {

@@ -63,6 +63,7 @@ mod nested_search;
 mod noise;
 mod oracle;
 mod outliers;
+mod outline;
 mod overload;
 mod overload_several;
 mod own_curves;

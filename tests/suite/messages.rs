@@ -531,6 +531,10 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
     }
     for (error, words) in [
         (PiecewiseError::InPiece { piece: 12, source: not_finite }, "piece 12"),
+        (
+            PiecewiseError::InSegment { segment: 12, source: not_finite },
+            "segment 12 of the outline: X' is NaN",
+        ),
         (PiecewiseError::Tolerance { tolerance: -1.5 }, "-1.5"),
         (
             PiecewiseError::Gap { breakpoint: 12, left: 1.5, right: 3.75 },

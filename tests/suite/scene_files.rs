@@ -344,7 +344,13 @@ fn a_bad_json_file_is_refused_with_line_and_field() {
     let refused = [
         ("\"flat\"", "flat", 2, "lower.shape", "expected"),
         ("0.1]", "null]", 4, "upper.shape.wedge.slopes[1]", "invalid type: null"),
-        ("\"reach\": 1", "\"reach\": -1", 5, "upper", "piece 0 (from 0, left to right): the reach is -1: it must be positive"),
+        (
+            "\"reach\": 1",
+            "\"reach\": -1",
+            5,
+            "upper",
+            "piece 0 (from 0, left to right): the reach is -1: it must be positive",
+        ),
         (wedge, r#""piecewise": {"parts": []}"#, 5, "upper", "at least one piece"),
         (wedge, &parts(0.5, "1e-12"), 5, "upper", "gap of 0.5 between pieces 0 and 1"),
         (wedge, &parts(0.0, "-1"), 5, "upper", "tolerance -1 is out of range"),

@@ -37,6 +37,7 @@ from .errors import EvaluationError, InputError, LineContactError, SolveError
 from .exploring import explore
 from .files import Scene
 from .finite_roller import FiniteRoller, RollerState
+from .outlines import Outline, read_outline
 from .pair import Pair, Pose, Wrench
 from .reading import MeasuredProfile, read_profile
 from .slipping import PartialSlip
@@ -82,6 +83,7 @@ __all__ = [
     "Material",
     "MeasuredProfile",
     "Midpoint",
+    "Outline",
     "Pair",
     "Panels",
     "PartialSlip",
@@ -107,6 +109,7 @@ __all__ = [
     "explore",
     "gradient",
     "parameters",
+    "read_outline",
     "read_profile",
     "solve",
     "sweep",

@@ -16,6 +16,7 @@ __all__ = [
     "SpringTable",
     "contact_modulus",
     "gradient",
+    "outline",
     "parameters",
     "quantities",
     "scene_text",
@@ -49,6 +50,11 @@ def gradient(
 def parameters(
     scene: Scene, prescribed: _Prescribed | None, to: _References | None
 ) -> list[tuple[str, float]]: ...
+def outline(
+    start: _Pair,
+    steps: Sequence[tuple[str, list[float]]],
+    left: tuple[_Pair, Sequence[tuple[str, list[float]]]] | None,
+) -> tuple[list[tuple[float | None, float, _Pair, _Pair]], float]: ...
 def quantities() -> list[str]: ...
 def scene_text(text: str, source: str, to: str) -> str: ...
 def searches() -> list[str]: ...

@@ -137,7 +137,7 @@ class MissingDerivativesError(InputError, TypeError):
 
 
 class MeasuredFileError(InputError):
-    """A file of a measured profile cannot be read.
+    """A file of a measured profile, or of a drawing, cannot be read.
 
     Attributes
     ----------
@@ -1583,6 +1583,21 @@ class PiecewiseInPieceError(InputError):
     """
 
     piece: int
+    source: LineContactError
+
+
+class PiecewiseInSegmentError(InputError):
+    """A segment of an `Outline` cannot be drawn.
+
+    Attributes
+    ----------
+    segment : int
+        Number of the line or arc, as drawn, from 1; of the half to which it belongs.
+    source : LineContactError
+        Fault of the segment, or of the corner in front of it.
+    """
+
+    segment: int
     source: LineContactError
 
 
