@@ -21,6 +21,8 @@ mod finite_roller;
 mod fuzz;
 #[path = "../examples/gear_mesh.rs"]
 mod gear_mesh;
+#[path = "../examples/guideways.rs"]
+mod guideways;
 #[path = "../examples/hard_coating.rs"]
 mod hard_coating;
 #[path = "../examples/hard_scenes/main.rs"]
@@ -41,8 +43,6 @@ mod quickstart;
 mod reference_tables;
 #[path = "../examples/references/main.rs"]
 mod references;
-#[path = "../examples/roller_and_wheel.rs"]
-mod roller_and_wheel;
 #[path = "../examples/rough_profile.rs"]
 mod rough_profile;
 #[path = "../examples/rough_surface.rs"]
@@ -82,13 +82,13 @@ const PROGRAMS: [Program; 23] = [
     program!(custom_profile),
     program!(finite_roller),
     program!(gear_mesh),
+    program!(guideways),
     program!(hard_coating),
     program!(lifting_follower),
     program!(paper),
     program!(pieces),
     program!(printing_nip),
     program!(quickstart),
-    program!(roller_and_wheel),
     program!(rough_profile),
     program!(rough_surface),
     program!(spring),

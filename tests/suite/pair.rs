@@ -1,4 +1,4 @@
-//! Poses in, forces out: against contacts of placed bodies, invariants, and the energy of an impact.
+//! Poses in, forces out: against contacts of placed bodies, invariants, the energy of an impact.
 #![allow(missing_docs)]
 
 use crate::common::{Profile, graph, quartic};

@@ -1,11 +1,9 @@
-//! A roller with relief on a raceway (axial section), and a wheel of arcs on a rail of arcs
-//! (transverse section).
+//! Guideways, long across the plane: a slide with relief on a flat one, and a hollow of arcs on a
+//! rib of arcs.
 //!
-//! Run with `cargo run --release --example roller_and_wheel`. The first is checked against its
-//! closed form, the second against a parabola with a different radius on either side, which the
-//! arcs approach as the contact becomes small. Both are taken as long across the plane. Real
-//! rollers and wheels are not, so that the results are only a guide for them. Lengths in mm,
-//! pressures in MPa, load in N/mm.
+//! Run with `cargo run --release --example guideways`. The first is checked against its closed form,
+//! the second against a parabola with a different radius on either side, which the arcs approach as
+//! the contact becomes small. Lengths in mm, pressures in MPa, load in N/mm.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
@@ -20,7 +18,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 const MODULUS: f64 = 115e3;
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    println!("{}", drawing::save("roller_and_wheel", vec![roller()?, wheel()?])?);
+    println!("{}", drawing::save("guideways", vec![slide()?, hollow()?])?);
     Ok(())
 }
 
@@ -44,14 +42,14 @@ fn shade(i: usize) -> RGBColor {
     mix(drawing::tint(BLUE, 0.5), RED, i as f64 / 2.0)
 }
 
-fn roller() -> Result<Vec<Panel>, Box<dyn Error>> {
+fn slide() -> Result<Vec<Panel>, Box<dyn Error>> {
     let (depth, end, kappa) = (0.003, 8.0, FRAC_PI_2 * MODULUS);
-    let roller = Crowning::new(depth, end, [-end, end])?;
-    let contact = Contact::new(&Flat, &roller)?.contact_modulus(MODULUS);
+    let slide = Crowning::new(depth, end, [-end, end])?;
+    let contact = Contact::new(&Flat, &slide)?.contact_modulus(MODULUS);
     let range = [-8.5, 8.5];
-    let relief = outline(&roller).into_iter().map(|(x, y)| (x, 1e3 * y)).collect();
+    let relief = outline(&slide).into_iter().map(|(x, y)| (x, 1e3 * y)).collect();
     let shape = Panel::new(
-        "A roller with logarithmic relief on a flat",
+        "A slide with logarithmic relief on a flat",
         ("x / mm", range),
         ("y / µm", [-4.0, 12.0]),
     )
@@ -62,7 +60,7 @@ fn roller() -> Result<Vec<Panel>, Box<dyn Error>> {
     let mut drawn = Panel::new("Pressure under three loads", axes.0, axes.1)
         .size(400, 200)
         .legend(SeriesLabelPosition::UpperMiddle);
-    println!("roller with relief: off the closed form by");
+    println!("slide with relief: off the closed form by");
     for (i, half_width) in [4.0, 7.0, 7.6].into_iter().enumerate() {
         let form = reference::Crowning::new(depth, end, half_width)?;
         let load = form.load(kappa);
@@ -78,30 +76,30 @@ fn roller() -> Result<Vec<Panel>, Box<dyn Error>> {
     Ok(vec![shape, drawn])
 }
 
-fn wheel() -> Result<Vec<Panel>, Box<dyn Error>> {
-    // Arcs of 300, 80 and 13 mm on the rail; on the wheel a hollow tread of 500 mm, and bulging
-    // ones of 400 mm.
+fn hollow() -> Result<Vec<Panel>, Box<dyn Error>> {
+    // Arcs of 300, 80 and 13 mm on the rib; on its partner a hollow of 500 mm, and bulging arcs of
+    // 400 mm.
     let middle = || Outline::from([0.0, 0.0]);
-    let rail = middle().arc(-80.0, 15.0).arc(-13.0, 8.0).left(middle().arc(-300.0, 25.0));
-    let tread = middle().arc(400.0, 30.0).left(middle().arc(-500.0, 20.0).arc(400.0, 15.0));
-    let (rail, tread) = (rail.build()?, tread.build()?);
-    let contact = Contact::new(&rail, &tread)?.contact_modulus(MODULUS).certified(true);
-    let combined = |rail: f64, tread: f64| 1.0 / (1.0 / rail + 1.0 / tread);
+    let rib = middle().arc(-80.0, 15.0).arc(-13.0, 8.0).left(middle().arc(-300.0, 25.0));
+    let partner = middle().arc(400.0, 30.0).left(middle().arc(-500.0, 20.0).arc(400.0, 15.0));
+    let (rib, partner) = (rib.build()?, partner.build()?);
+    let contact = Contact::new(&rib, &partner)?.contact_modulus(MODULUS).certified(true);
+    let combined = |rib: f64, partner: f64| 1.0 / (1.0 / rib + 1.0 / partner);
     let radii = [combined(300.0, -500.0), combined(80.0, 400.0)];
-    println!("wheel on rail: radii {radii:.1?}; off the parabolas by");
+    println!("hollow on rib: radii {radii:.1?}; off the parabolas by");
     let kappa = FRAC_PI_2 * MODULUS;
     let heights = [-6.0, 6.0];
     let shape = Panel::new(
-        "A wheel of arcs on a rail of arcs",
+        "A hollow of arcs on a rib of arcs",
         ("x / mm", [-25.0, 23.0]),
         ("y / mm", heights),
     )
     .size(400, 180)
-    .body(outline(&rail), heights[0], BLUE, "")
-    .body(outline(&tread), heights[1], RED, "")
+    .body(outline(&rib), heights[0], BLUE, "")
+    .body(outline(&partner), heights[1], RED, "")
     .dots(vec![(0.0, 0.0)], BLACK, "")
-    .note(0.0, -2.5, "rail, radii 300, 80 and 13 mm", BLUE)
-    .note(0.0, 4.0, "wheel, radii −500 and 400 mm", RED);
+    .note(0.0, -2.5, "rib, radii 300, 80 and 13 mm", BLUE)
+    .note(0.0, 4.0, "hollow, radii −500 and 400 mm", RED);
     let axes = (("x / mm", [-3.5, 1.0]), ("P / MPa", [0.0, 600.0]));
     let mut drawn = Panel::new("Pressure under three loads", axes.0, axes.1)
         .size(400, 200)
