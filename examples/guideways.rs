@@ -1,9 +1,9 @@
 //! Guideways, long across the plane: a slide with relief on a flat one, and a hollow of arcs on a
 //! rib of arcs.
 //!
-//! Run with `cargo run --release --example guideways`. The first is checked against its closed form,
-//! the second against a parabola with a different radius on either side, which the arcs approach as
-//! the contact becomes small. Lengths in mm, pressures in MPa, load in N/mm.
+//! Run with `cargo run --release --example guideways`. The first is checked against its closed
+//! form, the second against a parabola with a different radius on either side, which the arcs
+//! approach as the contact becomes small. Lengths in mm, pressures in MPa, load in N/mm.
 
 #[path = "shared/drawing.rs"]
 mod drawing;
