@@ -61,11 +61,22 @@ pub(crate) fn first_touch<T: Real>(
     // Heights as close as under a load that would flatten half the digits of the bodies.
     let aside = ContactState::least_height(gap.range());
     let look = workspace.look(gap, Asked::Load(aside), cost)?;
-    let lowest = look.lowest();
+    let mut lowest = look.lowest();
+    if !(ends.left..=ends.right).contains(&lowest) {
+        // The body ends at a corner before.
+        let mut sampler = Sampler::default();
+        let mut places = look.heights(gap);
+        for x in ends {
+            places.push([x, sampler.height(gap, x)?]);
+        }
+        let inside = places.into_iter().filter(|[x, _]| (ends.left..=ends.right).contains(x));
+        let lower = |one: [T; 2], other: [T; 2]| if other[1] < one[1] { other } else { one };
+        lowest = inside.reduce(lower).map_or(ends.left, |[x, _]| x);
+    }
     let around = Interval { left: lowest - aside, right: lowest + aside };
     // At the end of a body, or a corner, no slope passes through zero.
     if !(around.left > ends.left && around.right < ends.right) {
-        return Ok(lowest.max(ends.left).min(ends.right));
+        return Ok(lowest);
     }
     let mut sampler = Sampler::default();
     let found = first_contact(&mut sampler, gap, Some(around));

@@ -146,6 +146,12 @@ fn the_lowest_place_is_found_wherever_it_is() {
         let heights = |at: f64| [y(at) - y(x), 4.0 * at * (at * at - 1.0) + by];
         assert_apart(&solution, [x, 0.0], heights, [-2.0, 2.0]);
     }
+    // A valley beyond a corner does not count.
+    let body = leaning(-0.3);
+    let until = Contact::new(&Flat, &body).unwrap().edges(Edge::Free, Edge::FreeUntil(0.5));
+    let solution = until.solve(Control::Load(0.0)).unwrap();
+    assert!((solution.a() + 0.96).abs() < 0.01, "{}", solution.a());
+    assert!(solution.gap_at(0.5).unwrap() > 0.1);
     let found = Contact::new(&Flat, &*quartic).unwrap().solve(Control::Load(0.0)).unwrap();
     assert!((found.a().abs() - 1.0).abs() < 1e-15, "either valley: {}", found.a());
     let body = Parabola::new(1.0, [0.5, 2.0]).unwrap();

@@ -59,7 +59,8 @@ impl<T: Real> Subsurface<'_, T> {
     ///
     /// # Errors
     /// As [`max_shear`](Self::max_shear), without friction also where the slope of the gap jumps,
-    /// unless ν is 1/2; [`InputError::InvalidPoissonRatio`].
+    /// unless ν is 1/2;
+    /// [`InputError::InvalidPoissonRatio`](crate::InputError::InvalidPoissonRatio).
     pub fn max_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
         T::largest_von_mises(self, poisson)
     }
