@@ -6,9 +6,9 @@
 
 use super::first_contact::first_contact;
 use super::{Contact, Control, Work, Workspace};
-use crate::gap::{Asked, Cost, Sampler};
+use crate::gap::{Asked, Cost, Gap, Sampler};
 use crate::solution::{Approaching, ContactState, Outcome, Solved, Start};
-use crate::{ContactError, Edge, Interval, Real, SolveError};
+use crate::{ContactError, Edge, EvaluationError, Interval, Real, SolveError};
 
 /// Returns the state of bodies that are not pressed together under a control; `None` if they are,
 /// or if an edge may pull or is held.
@@ -39,6 +39,10 @@ fn lifted<T: Real>(
     let may_lift = |edge| matches!(edge, Edge::Free | Edge::FreeUntil(_));
     if contact.edge_pressure.is_some() || !edges.into_iter().all(may_lift) {
         return Ok(None);
+    }
+    if (1..T::COMPONENTS).any(|i| !load.component(i).is_zero()) {
+        let why = "without load the bodies touch in a point, whose width rises at once";
+        return Err(EvaluationError::NoLoadDerivative { why }.into());
     }
     let place = first_touch(contact, work.workspace, work.cost)?;
     let found = ContactState::apart(place, load, separation, contact.ends());
@@ -80,10 +84,30 @@ pub(crate) fn first_touch<T: Real>(
     }
     let mut sampler = Sampler::default();
     let found = first_contact(&mut sampler, gap, Some(around));
-    *cost += sampler.cost;
-    match found {
+    let found = match found {
         // The middle of a flat will do.
         Err(ContactError::Solve(SolveError::NoFirstContact { .. })) => Ok(lowest),
+        Ok(place) if !gap.is_breakpoint(place) => differentiated(&mut sampler, gap, place, aside),
         found => found,
+    };
+    *cost += sampler.cost;
+    found
+}
+
+/// Returns a zero of the slope with its derivatives, by a step of Newton's method for each order.
+fn differentiated<T: Real>(
+    sampler: &mut Sampler<T>,
+    gap: &Gap<'_, T>,
+    mut place: T,
+    aside: T,
+) -> Result<T, ContactError<T>> {
+    for _ in 0..T::DERIVATIVE_ORDER {
+        let x = place.component(0);
+        let rise = sampler.slope(gap, x + aside)? - sampler.slope(gap, x - aside)?;
+        // The middle of a flat has none.
+        if rise.component(0) > T::zero() {
+            place -= sampler.slope(gap, place)? * (aside + aside) / rise.component(0);
+        }
     }
+    Ok(place)
 }

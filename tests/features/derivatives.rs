@@ -542,3 +542,22 @@ fn a_tilt_of_several_contacts_by_the_moment() {
         }
     }
 }
+
+/// Bodies that are apart have derivatives by their shape, but the width has none by a load of zero.
+#[test]
+fn apart_the_place_of_first_touch_has_derivatives() {
+    // (x - s)²/2 by its place s.
+    let place = Dual64::new(0.3, 1.0);
+    let body = Curve::new([plain(-1.0), plain(1.0)], move |k: Dual64| CurvePoint {
+        x: k,
+        y: plain(0.5) * (k - place) * (k - place),
+        dx: plain(1.0),
+        dy: k - place,
+    });
+    let contact = Contact::new(&Flat, &body).unwrap();
+    let apart = contact.solve(Control::Load(plain(0.0))).unwrap();
+    assert!((apart.a().eps - 1.0).abs() < 1e-7 && (apart.a().re - 0.3).abs() < 1e-15);
+    assert!(apart.is_apart() && (apart.gap_at(plain(0.8)).unwrap().eps + 0.5).abs() < 1e-14);
+    let error = contact.solve(Control::Load(Dual64::new(0.0, 1.0))).map(drop).unwrap_err();
+    assert!(error.to_string().contains("touch in a point"), "{error}");
+}
