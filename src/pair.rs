@@ -78,8 +78,16 @@ pub struct Wrench<T> {
 /// Two bodies that move, each in its own frame, with all that their force depends on but their
 /// poses.
 ///
-/// The load acts along the y axis of body 1: of a cam and its follower, body 1 is the follower. As
-/// for a [`Contact`], body 1 is below and body 2 above it, in the frame of body 1.
+/// The load acts along the y axis of body 1: of a cam and its follower, body 1 is the follower.
+/// Where the surfaces slope by s in its frame, the real force is normal to them: its part along x,
+/// some s times the load, is left out, and so is its torque. A body that rolls over bumps, or into
+/// the flank of a groove, is no case for a pair.
+///
+/// As for a [`Contact`], body 1 is below and body 2 above it, in the frame of body 1: each surface
+/// is a curve without a turn, and the material of body 2 is above the curve as it stands. So a
+/// round body that rolls keeps its angle, with its origin in the middle: its turn changes nothing.
+/// A contact that reaches an end of the bodies is an error, and features narrower than those that
+/// [`Contact::solve`] sees are not seen.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -116,7 +124,8 @@ struct Pressed<T> {
 }
 
 impl<'b, T: Real> Pair<'b, T> {
-    /// Creates a pair in plane strain. The x of the references is that of body 1.
+    /// Creates a pair in plane strain. The x of the references is counted from the origin of body 2
+    /// along body 1, and kept within the bodies.
     pub fn new(
         lower: &'b dyn ParametricProfile<T>,
         upper: &'b dyn ParametricProfile<T>,
@@ -167,8 +176,8 @@ impl<'b, T: Real> Pair<'b, T> {
 
     /// Returns the stiffness of the bodies against each other: the derivatives of the force on body
     /// 2 along x and y and of the torque on it, in the rows, by x, y and angle of its pose, with
-    /// the other sign, as for a spring. By central differences, about nine digits: six times
-    /// [`at`](Self::at).
+    /// the other sign, as for a spring. By central differences, about nine digits where the bodies
+    /// are not far from their origins: six times [`at`](Self::at).
     ///
     /// # Errors
     /// As [`at`](Self::at).
@@ -253,7 +262,7 @@ fn pressed_in_frame<T: Real>(
         return apart(-gap, [place, height(place)?]);
     }
     let [from, to] = contact.gap.range();
-    references.x = references.x.max(from).min(to);
+    references.x = (seen.x + references.x).max(from).min(to);
     let control = Control::Approach { approach: -gap, references };
     let solution = solver.solve(&contact, control)?;
     let (load, x) = (solution.load(), solution.centre_of_pressure()?);

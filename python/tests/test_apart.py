@@ -72,6 +72,8 @@ def test_the_command_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert "apart by" in printed and "no load presses the bodies together" in printed
     head, row = csv.read_text().splitlines()
     assert row.split(",")[head.split(",").index("apart_by")] == "0.0"
+    assert main(["solve", str(scene), "--load", "0", "--vtk", str(vtk)]) == 0
+    assert "apart under load = 0" in capsys.readouterr().err and not vtk.exists()
     page = tmp_path / "of.html"
     files = ["--csv", str(csv), "--npz", str(npz), "--vtk", str(vtk), "--page", str(page)]
     assert main(["solve", str(scene), "--load", "0:400:3", *files]) == 0

@@ -101,6 +101,7 @@ def test_apart() -> None:
     state = CYLINDER.at(-0.001)
     assert state.load == 0.0 and state.moment == 0.0 and not np.any(state.loads) and not np.any(state.pressures)
     assert CYLINDER.under_load(0.0).approach == 0.0
+    assert len(state.plot().axes) == 2
     spring = TABLE.at([-1.0, 0.0])
     assert not np.any(spring.load) and not np.any(spring.stiffness) and 0.0 < TABLE.touch_error < 0.1
 

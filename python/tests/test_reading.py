@@ -118,6 +118,13 @@ def test_columns_by_name(tmp_path: Path) -> None:
     assert raised.value.line == 1
 
 
+def test_columns_are_taken_as_they_are_named(tmp_path: Path) -> None:
+    turned = lc.read_profile(written(tmp_path, "turned.csv", "z [um];x [mm]\n0;1\n1;2\n4;3\n"))
+    np.testing.assert_allclose(turned.points, [[1.0, 0.0], [2.0, 1e-3], [3.0, 4e-3]])
+    with pytest.raises(lc.errors.MeasuredFileError, match="are all called 'x'"):
+        lc.read_profile(written(tmp_path, "two.csv", "x;x;z\n0;1;3\n1;2;4\n2;3;9\n"), columns=("x", "z"))
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
@@ -476,7 +483,7 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("type.x3p", edited(**{"A</AxisType><DataType>D": "A</AxisType><DataType>Q"}), {"row": 1}, {}, "'Z': 'Q'"),
     ("axis.x3p", x3p(SURFACE, STEP, kind="D", x_type="A"), {"row": 1}, {}, "19248 are expected"),
     ("flat.x3p", x3p(SURFACE[:1], STEP), {"row": 2}, {}, "row is 2"),
-    ("swapped.csv", b"z;x\n3;0\n1;1\n2;2\n", {}, {"line": 4}, r"as column 2 does \(columns=\(2, 1\)\)"),
+    ("swapped.csv", b"n;k\n3;0\n1;1\n2;2\n", {}, {"line": 4}, r"as column 2 does \(columns=\(2, 1\)\)"),
     ("one_hole.csv", b"0;1\n1;NaN\n2;3\n", {}, {"line": 2}, ": not measured: skip_missing=True leaves it out"),
     ("words_between.csv", b"0;1\nend\n1;2\n", {"columns": (1, 2)}, {"line": 2}, "1 columns: there are 2"),
     ("micron.csv", b"X_(microns),y1\n0,1\n1,2\n", {}, {"line": 1}, r"only one .* such as \('um', 'um'\)"),

@@ -102,7 +102,8 @@ impl<T: Real> Outline<T> {
         self.draw(Some(radius), length)
     }
 
-    /// Makes a corner: the next segment starts with another slope.
+    /// Makes a corner: the next segment starts with another slope. Of two corners in front of a
+    /// segment the last counts, and so of fillets and chamfers.
     pub fn corner(mut self, slope: T) -> Self {
         self.next.0 = Some(slope);
         self
@@ -121,7 +122,8 @@ impl<T: Real> Outline<T> {
         self
     }
 
-    /// Makes the body symmetric: the mirror image of what is drawn stands to its left.
+    /// Makes the body symmetric: the mirror image of what is drawn stands to its left, in place of
+    /// any other left half.
     pub fn mirrored(self) -> Self {
         let half = self.clone();
         self.left(half)

@@ -28,7 +28,8 @@ impl<T: Real> Solution<'_, T> {
 
     /// Tells whether no load presses the bodies together: they touch in a point, or are apart by
     /// their [`separation`](Self::separation). There are then no [`intervals`](Self::intervals) and
-    /// no pressure, and the limits `-b` and `a` are both the place where the bodies touch first.
+    /// no pressure, and the limits `-b` and `a` are both the place where the bodies touch first, as
+    /// far as the heights of their first samples tell: [`certify`](Self::certify) looks closer.
     #[must_use]
     pub fn is_apart(&self) -> bool {
         self.found.apart.is_some()

@@ -18,10 +18,14 @@ pub(super) fn find<T: Real>(
     control: Control<T>,
     work: &mut Work<'_, T>,
 ) -> Result<Option<ContactState<T>>, ContactError<T>> {
+    let zero = T::zero();
     match control {
-        Control::Load(load) if load.is_zero() => lifted(contact, control, [load; 2], work),
-        Control::Approach { approach, .. } if approach <= T::zero() && approach.is_finite() => {
-            lifted(contact, control, [T::zero(), -approach], work)
+        // A difference has no negative zero.
+        Control::Load(load) if load.is_zero() => {
+            lifted(contact, control, [zero - load, zero], work)
+        }
+        Control::Approach { approach, .. } if approach <= zero && approach.is_finite() => {
+            lifted(contact, control, [zero, zero - approach], work)
         }
         _ => Ok(None),
     }

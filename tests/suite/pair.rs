@@ -57,7 +57,8 @@ fn it_is_the_contact_of_the_placed_bodies_at_their_overlap() {
         });
         let lowest = lowest.fold(f64::INFINITY, f64::min);
         assert!((wrench.penetration + lowest).abs() < 1e-9, "{} {lowest}", wrench.penetration);
-        let control = Control::Approach { approach: wrench.penetration, references: TO };
+        let references = References { x, ..TO };
+        let control = Control::Approach { approach: wrench.penetration, references };
         let solution = contact.solve(control).unwrap();
         let (load, centre) = (solution.load(), solution.centre_of_pressure().unwrap());
         assert!((wrench.force[1] / load - 1.0).abs() < 1e-12 && wrench.force[0] == 0.0);
@@ -138,9 +139,8 @@ fn the_stiffness_is_that_of_closed_forms() {
     let contact = Contact::new(&Flat, &circle).unwrap();
     let contact = contact.materials(STEEL, STEEL, PlaneState::Strain);
     let control = Control::Approach { approach: depth, references: TO };
-    let to = References { x: -0.3, ..TO };
-    let solution = contact.solve(Control::Approach { approach: depth, references: to }).unwrap();
-    let (load, exact) = (solution.load(), solution.stiffness(&to).unwrap());
+    let solution = contact.solve(control).unwrap();
+    let (load, exact) = (solution.load(), solution.stiffness(&TO).unwrap());
     let found = pair.stiffness(REST, upper).unwrap();
     assert!((found[1][1] / exact - 1.0).abs() < 1e-6, "{} {exact}", found[1][1]);
     for (row, column) in [(0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1)] {

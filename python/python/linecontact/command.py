@@ -161,4 +161,7 @@ def _written(given: argparse.Namespace, scene: Scene, rows: Sequence[Row]) -> in
             return _say(f"cannot write {path}: {error.strerror or error}", _OUTPUT)
         except LineContactError as error:
             return _say(f"cannot write {path}: {error}", _FAILED)
+    apart = [described(row.control) for row in rows if row.solution and row.solution.is_apart]
+    if apart and (given.npz or given.vtk or given.page):
+        _say(f"apart under {apart[0]}: no pressures and stresses to write", _OK)
     return _OK

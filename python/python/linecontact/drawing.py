@@ -103,7 +103,9 @@ def plot_roller(state: RollerState, units: Sequence[str]) -> Figure:
     figure = _figure(5.6)
     loads, pressures = figure.subplots(2, 1, sharex=True)
     # The slices have the same width.
-    width = state.load / float(np.sum(state.loads))
+    whole = float(np.sum(state.loads))
+    apart = float(np.ptp(state.z)) / max(state.z.size - 1, 1)
+    width = state.load / whole if whole > 0.0 else apart or 1.0
     ends = np.append(state.z - 0.5 * width, state.z[-1] + 0.5 * width)
     for axes, label, values in ((loads, load, state.loads), (pressures, pressure, state.pressures)):
         axes.stairs(values, ends, fill=True, color="#9ecae1")

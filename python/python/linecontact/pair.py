@@ -65,7 +65,7 @@ class Wrench(NamedTuple):
     >>> pair = lc.Pair(lc.Flat(), lc.Parabola(10.0, (-1.0, 1.0)), materials=(steel, steel), references=to)
     >>> wrench = pair.at(lc.Pose(), lc.Pose(3.0, -0.01))
     >>> round(wrench.penetration, 12), wrench.torque.round(1)  # about x = 0, and about x = 3
-    (0.01, array([-1053.7,     0. ]))
+    (0.01, array([-1053.8,     0. ]))
     """
 
     penetration: float
@@ -80,7 +80,13 @@ class Pair:
     """Two bodies that move, each in its own frame.
 
     The load acts along the y axis of the lower body: of a cam and its follower, the lower body is
-    the follower. One pair serves one thread at a time; it starts from the contact found last.
+    the follower. Where the surfaces slope by s in its frame, the real force is normal to them: its
+    part along x, some s times the load, is left out, and so is its torque.
+
+    Each surface is a curve without a turn in the frame of the lower body, and the material of the
+    upper body is above its curve as it stands: a round body that rolls keeps its angle, with its
+    origin in the middle. A contact that reaches an end of the bodies is an error. One pair serves
+    one thread at a time; it starts from the contact found last.
 
     Parameters
     ----------
@@ -89,7 +95,7 @@ class Pair:
     materials : (Material or Layer, Material or Layer)
         Materials of both.
     references : References
-        References of the approach; their x is that of the lower body.
+        References of the approach; their x is counted from the origin of the upper body.
     plane : {"strain", "stress"}
         Plane state.
 
@@ -101,7 +107,7 @@ class Pair:
     >>> pair = lc.Pair(lc.Flat(), lc.Parabola(10.0, (-1.0, 1.0)), materials=(steel, steel), references=to)
     >>> pressed = pair.at(lc.Pose(), lc.Pose(3.0, -0.01))
     >>> pressed.force.round(1), pressed.contacts
-    (array([  0. , 351.2]), 1)
+    (array([  0. , 351.3]), 1)
     >>> pair.at(lc.Pose(), lc.Pose(3.0, 0.01)).force
     array([0., 0.])
     """

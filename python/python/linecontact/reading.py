@@ -254,7 +254,7 @@ def _text(
     if columns is None and width > 2:
         such = _columns_to_try(heads, width, can_be_x)
         raise MeasuredFileError(name, f"{width} columns: give those of x and z, by number or name, {such}", first + 1)
-    x, z = (1, 2) if columns is None else (_numbered(name, heads, column) for column in columns)
+    x, z = _in_order(heads) if columns is None else (_numbered(name, heads, column) for column in columns)
     if min(x, z) < 1 or max(x, z) > width or x == z:
         raise MeasuredFileError(name, f"columns are {columns}: give two of 1 to {width}", first + 1)
     marks = set[str]()
@@ -359,13 +359,21 @@ def _numbered(name: str, heads: Sequence[_Head], column: int | str) -> int:
     wanted = re.sub(r"\s", "", column).lower()
     for head in heads:
         for cells in head.ways:
-            for at, cell in enumerate(cells, 1):
-                if wanted in (_bare(cell), re.sub(r"\s", "", cell).lower()):
-                    return at
+            found = [at for at, cell in enumerate(cells, 1) if wanted in (_bare(cell), re.sub(r"\s", "", cell).lower())]
+            if len(found) > 1:
+                raise MeasuredFileError(name, f"columns {found} are all called {column!r}: give the number", head.line)
+            if found:
+                return found[0]
     if not heads:
         raise MeasuredFileError(name, f"no column {column!r}: there is no header")
     there = ", ".join(map(repr, heads[0].ways[0]))
     raise MeasuredFileError(name, f"no column {column!r} in the header: there are {there}", heads[0].line)
+
+
+def _in_order(heads: Sequence[_Head]) -> tuple[int, int]:
+    """Returns the columns of x and z of two: the second is x if a header calls it so, and not the first."""
+    bare = [[_bare(cell) for cell in head.ways[0]] for head in heads]
+    return (2, 1) if any(len(names) == 2 and names[1] == "x" != names[0] for names in bare) else (1, 2)
 
 
 def _columns_to_try(heads: Sequence[_Head], width: int, can_be_x: Sequence[int]) -> str:
