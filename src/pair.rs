@@ -162,8 +162,8 @@ impl<'b, T: Real> Pair<'b, T> {
     }
 
     /// Returns the force of the bodies on each other where they stand. It starts from the contact
-    /// found last, and then allocates no more than some integrals of the pressure, if both bodies
-    /// are smooth; bodies of several pieces are listed at each step.
+    /// found last, and then allocates nothing for smooth bodies that touch in one place; the pieces
+    /// of body 2 are listed at each step.
     ///
     /// It is continuous where bodies touch, and where contacts appear or merge.
     ///

@@ -461,12 +461,13 @@ impl<'s, T: Real> Approaching<'s, T> {
         if self.solved.found.apart.is_some() {
             return Ok(T::one() / T::zero());
         }
-        let (rates, contacts) = (LoadRates::of(self.solved)?, self.solved.contacts());
-        let bend = self.solved.gap.bend();
+        let (contacts, bend) = (self.solved.contacts(), self.solved.gap.bend());
         if let ([on], None) = (contacts, bend) {
+            LoadRates::limits_of_one(self.solved)?;
             let punches = self.bodies.map(|of| self.of_punch(*on, of));
             return Ok(self.both(punches, T::zero()));
         }
+        let rates = LoadRates::of(self.solved)?;
         let integrals = Integrals::of_unit_load(&rates, contacts);
         let logarithm = self.mean_logarithm(&integrals, contacts[0])?;
         let [smooth, _] = self.smooth(&integrals)?;

@@ -159,6 +159,21 @@ impl<T: Real> LoadRates<T> {
     /// Returns the derivatives of a contact of half-planes, or of bodies with a given bend.
     pub(crate) fn new(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
         let Solved { found, kappa, .. } = solved;
+        let Some(several) = solved.several().filter(|_| found.apart.is_none()) else {
+            return Ok(Self::of_one(Self::limits_of_one(solved)?, found.interval));
+        };
+        let Some((mut limits, punch)) = several.rates(found.load / kappa) else {
+            let why = "two contacts are about to merge, or one is about to vanish";
+            return Err(EvaluationError::NoLoadDerivative { why }.into());
+        };
+        limits.iter_mut().for_each(|rates| *rates = rates.map(|rate| rate / kappa));
+        let [b, a] = [-limits[0].left, limits[limits.len() - 1].right];
+        Ok(Self { a, b, limits, punch: Touching::Several(Box::new(punch)) })
+    }
+
+    /// Returns the derivatives of the limits of a single contact.
+    pub(crate) fn limits_of_one(solved: Solved<'_, T>) -> Result<Ends<T>, ContactError<T>> {
+        let Solved { found, kappa, .. } = solved;
         let on = found.interval;
         let refuse = |why| Err(EvaluationError::NoLoadDerivative { why }.into());
         if found.apart.is_some() {
@@ -167,19 +182,11 @@ impl<T: Real> LoadRates<T> {
         if found.adhesive != Ends::both(false) {
             return refuse("an adhesive edge moves with a singular pressure");
         }
-        if let Some(several) = solved.several() {
-            let Some((mut limits, punch)) = several.rates(found.load / kappa) else {
-                return refuse("two contacts are about to merge, or one is about to vanish");
-            };
-            limits.iter_mut().for_each(|rates| *rates = rates.map(|rate| rate / kappa));
-            let [b, a] = [-limits[0].left, limits[limits.len() - 1].right];
-            return Ok(Self { a, b, limits, punch: Touching::Several(Box::new(punch)) });
-        }
         if found.free == Ends::both(false) {
             let Ends { left, right } = found.ends;
             let at_corner = |x: T| x == left || x == right || solved.gap.is_breakpoint(x);
             return if found.error.is_none() || at_corner(on.left) && at_corner(on.right) {
-                Ok(Self::of_one(Ends::both(T::zero()), on))
+                Ok(Ends::both(T::zero()))
             } else {
                 refuse("the limits were sought by Eq. (6), not by free edges")
             };
@@ -199,7 +206,6 @@ impl<T: Real> LoadRates<T> {
             if free { T::one() / stiffness } else { T::zero() }
         };
         let Ends { left, right } = found.free;
-        let limits = Ends { left: -rate(left, -T::one()), right: rate(right, T::one()) };
-        Ok(Self::of_one(limits, on))
+        Ok(Ends { left: -rate(left, -T::one()), right: rate(right, T::one()) })
     }
 }

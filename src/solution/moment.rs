@@ -1,8 +1,8 @@
 //! Mean pressure, moment and centre of pressure.
 
 use super::Solved;
-use super::pressure_integral::Integrals;
-use crate::{ContactError, InputError, Interval, Real, Solution, SolveError};
+use super::pressure_integral::{Density, Integrals};
+use crate::{ContactError, InputError, Interval, Pressure, Real, Solution, SolveError};
 
 impl<T: Real> Solution<'_, T> {
     /// Returns the mean pressure: F over the widths of all contacts, `F/(a + b)` for a single one;
@@ -16,9 +16,9 @@ impl<T: Real> Solution<'_, T> {
     }
 
     /// Returns the moment of the pressure about x = 0, `∫ x P dx`: a force. Its error is the
-    /// rounding of F times the largest x of the contact; next to a kink of the slope some 1e-12 of
-    /// F L. With [`Midpoint`](crate::Midpoint), whose pressures between its points are good to a
-    /// thousandth, it is some 1e-3 of F L.
+    /// rounding of F times the largest x of the contact; of several contacts with kinks of the
+    /// slope some 1e-12 of F L. With [`Midpoint`](crate::Midpoint), whose pressures between its
+    /// points are good to a thousandth, it is some 1e-3 of F L.
     ///
     /// # Errors
     /// Those of [`pressure`](Self::pressure);
@@ -53,8 +53,18 @@ impl<T: Real> Solved<'_, T> {
         }
         let on = self.found.interval;
         let (centre, half_width) = (on.centre(), on.half_width());
-        let share = |distance: T, strength: T| [-(distance / half_width) * strength];
-        let [about_centre] = Integrals::new(*self)?.over(centre, share)?;
+        let one = match self.integrator.panels() {
+            Some(_) => Pressure::new(*self)?.potential()?,
+            None => None,
+        };
+        let about_centre = match one {
+            Some(one) => one.moment(),
+            None => {
+                let share = |distance: T, strength: T| [-(distance / half_width) * strength];
+                let [moment] = Integrals::new(*self)?.over(centre, share)?;
+                moment
+            }
+        };
         Ok(centre / half_width * self.found.load + about_centre)
     }
 }

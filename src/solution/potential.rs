@@ -33,6 +33,14 @@ pub(crate) struct Potential<T> {
 }
 
 impl<T: Real> Potential<T> {
+    /// Returns the moment about the centre over the half-width, a force per unit length: from afar
+    /// W is `F/(ζ - c) + M/(ζ - c)²`.
+    pub fn moment(&self) -> T {
+        let ((series, terms), Ends { left, right }) = (&self.series, self.strengths);
+        let second = if *terms > 2 { self.kappa * series[2] } else { T::zero() };
+        T::of(0.25) * self.on.half_width() * (second + T::pi() * (right - left))
+    }
+
     /// Returns `∫ P ln|ζ - s| ds` and `y Im W` at x, at a depth y; `None` where terms that count
     /// are unknown.
     pub fn at(&self, x: T, depth: T) -> Option<[T; 2]> {

@@ -52,7 +52,33 @@ pub(crate) struct Integrals<T: Real, D> {
     /// Integral of the density over all contacts.
     pub load: T,
     /// Contacts, from left to right.
-    contacts: Vec<One<T>>,
+    contacts: Ones<T>,
+}
+
+/// Contacts, of which a single one is kept without an allocation.
+enum Ones<T: Real> {
+    Single([One<T>; 1]),
+    Several(Vec<One<T>>),
+}
+
+impl<T: Real> Ones<T> {
+    fn of(contacts: &[Interval<T>], one: impl Fn((usize, &Interval<T>)) -> One<T>) -> Self {
+        match contacts {
+            [on] => Self::Single([one((0, on))]),
+            several => Self::Several(several.iter().enumerate().map(one).collect()),
+        }
+    }
+}
+
+impl<T: Real> std::ops::Deref for Ones<T> {
+    type Target = [One<T>];
+
+    fn deref(&self) -> &[One<T>] {
+        match self {
+            Self::Single(one) => one,
+            Self::Several(several) => several,
+        }
+    }
 }
 
 /// One of the contacts.
@@ -78,7 +104,7 @@ impl<'p, T: Real> Integrals<T, Pressure<'p, T>> {
             let breakpoints = solved.gap.breakpoints(on).collect();
             One { on, breakpoints, free: solved.free(i), kept: OnceLock::new() }
         };
-        let contacts = contacts.iter().enumerate().map(one).collect();
+        let contacts = Ones::of(contacts, one);
         Ok(Self { density: Pressure::new(solved)?, load: solved.found.load, contacts })
     }
 }
@@ -89,7 +115,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
     pub fn of_unit_load(density: D, contacts: &[Interval<T>]) -> Self {
         let (breakpoints, free) = (Vec::new(), Ends::both(false));
         let one = One { on: contacts[0], breakpoints, free, kept: OnceLock::new() };
-        let contacts = contacts.iter().map(|&on| One { on, ..one.clone() }).collect();
+        let contacts = Ones::of(contacts, |(_, &on)| One { on, ..one.clone() });
         Self { density, load: T::one(), contacts }
     }
 
