@@ -235,3 +235,25 @@ fn apart_is_the_same_with_layers_periods_and_other_quadratures() {
     assert!(solution.is_apart() && (solution.a() - 0.75).abs() < 1e-14, "{}", solution.a());
     assert!((solution.gap_at(5.25).unwrap() - 0.02).abs() < 1e-15);
 }
+
+/// Features that the first samples miss are no proof: a dent that lies lower, and a hole of NaN.
+#[test]
+fn what_first_samples_miss_is_not_certified() {
+    let dent = graph(-5.0, 5.0, |x| {
+        let z = (x - 1.7) / 0.2;
+        let bump = 0.3 * (-z * z).exp();
+        [x * x / 20.0 - bump, x / 10.0 + 2.0 * z / 0.2 * bump]
+    });
+    let hole = graph(-5.0, 5.0, |x| {
+        let y = if (2.0..2.1).contains(&x) { f64::NAN } else { x * x / 20.0 };
+        [y, x / 10.0 + 0.0 * y]
+    });
+    for (name, body) in [("dent", dent), ("hole", hole)] {
+        let contact = Contact::new(&Flat, &*body).unwrap();
+        // Either the lowest place is found, or nothing is proved of another.
+        let Ok(solution) = contact.solve(Control::Load(0.0)) else { continue };
+        let is_lowest = name == "dent" && (solution.a() - 1.7).abs() < 0.1;
+        assert!(is_lowest || solution.certify().is_err(), "{name}: {solution}");
+        assert!(is_lowest || contact.certified(true).solve(Control::Load(0.0)).is_err(), "{name}");
+    }
+}
