@@ -4,11 +4,12 @@
 use crate::errors;
 use linecontact::{ContactError, Cost, Interval};
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike1};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// Time between two checks for signals in a solve: unnoticed at a keyboard, and long enough to wait
@@ -99,6 +100,22 @@ pub fn elsewhere<R>(stop: &Stop, work: impl FnOnce() -> R) -> R {
     let found = work();
     STOP.set(before);
     found
+}
+
+/// Runs work with an object that serves one thread at a time, and not from within a curve that is
+/// being solved. Other calls fail instead of waiting, as they might wait for ever.
+pub fn alone<S: Send, R: Send>(
+    py: Python<'_>,
+    object: &Mutex<S>,
+    name: &str,
+    work: impl FnOnce(&mut S) -> Result<R, ContactError<f64>> + Send,
+) -> PyResult<R> {
+    let Ok(mut object) = object.try_lock() else {
+        let says = format!("this {name} is solving: one serves one thread at a time, make another");
+        return Err(PyRuntimeError::new_err(says));
+    };
+    let object = &mut *object;
+    library(py, || work(object))
 }
 
 /// Computes a value for each number of an array.

@@ -4,8 +4,7 @@ use crate::call;
 use crate::control::{ReferenceRow, references};
 use crate::profile::{AsTheyAre, Profile};
 use crate::scene::{Surface, foundation, plane};
-use linecontact::{ContactError, Pose};
-use pyo3::exceptions::PyRuntimeError;
+use linecontact::Pose;
 use pyo3::prelude::*;
 use std::sync::Mutex;
 
@@ -18,23 +17,6 @@ type Row = (f64, [f64; 2], [f64; 2], [f64; 2], usize, bool);
 
 fn pose([x, y, angle]: [f64; 3]) -> Pose<f64> {
     Pose { x, y, angle }
-}
-
-impl Pair {
-    /// Runs work with the pair, for one thread at a time and not from within a curve that is being
-    /// solved.
-    fn with<R: Send>(
-        &self,
-        py: Python<'_>,
-        work: impl FnOnce(&mut linecontact::Pair<'static, f64>) -> Result<R, ContactError<f64>> + Send,
-    ) -> PyResult<R> {
-        let Ok(mut pair) = self.0.try_lock() else {
-            let says = "this Pair is solving: one serves one thread at a time, make another";
-            return Err(PyRuntimeError::new_err(says));
-        };
-        let pair = &mut *pair;
-        call::library(py, || work(pair))
-    }
 }
 
 #[pymethods]
@@ -54,7 +36,7 @@ impl Pair {
     }
 
     fn at(&self, py: Python<'_>, lower: [f64; 3], upper: [f64; 3]) -> PyResult<Row> {
-        let found = self.with(py, |pair| pair.at(pose(lower), pose(upper)))?;
+        let found = call::alone(py, &self.0, "Pair", |pair| pair.at(pose(lower), pose(upper)))?;
         let linecontact::Wrench { penetration, force, at, torque, contacts, is_steep } = found;
         Ok((penetration, force, at, torque, contacts, is_steep))
     }
@@ -65,6 +47,6 @@ impl Pair {
         lower: [f64; 3],
         upper: [f64; 3],
     ) -> PyResult<[[f64; 3]; 3]> {
-        self.with(py, |pair| pair.stiffness(pose(lower), pose(upper)))
+        call::alone(py, &self.0, "Pair", |pair| pair.stiffness(pose(lower), pose(upper)))
     }
 }

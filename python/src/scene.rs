@@ -7,10 +7,10 @@ use crate::solution::{PartialSlip, Solution};
 use linecontact::quadrature::Quadrature;
 use linecontact::search::{LimitSearch, StoppingCriteria, strategies};
 use linecontact::{
-    Base, Contact, ContactError, Edge, EdgePressure, Exponents, Foundation, Interval, Layer,
-    Material, Midpoint, Panels, PlaneState, Real, Shear,
+    Base, Contact, Edge, EdgePressure, Exponents, Foundation, Interval, Layer, Material, Midpoint,
+    Panels, PlaneState, Real, Shear,
 };
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::any::Any;
 use std::collections::HashMap;
@@ -273,23 +273,6 @@ scene! {
 #[pyclass(frozen, module = "linecontact._native")]
 pub struct Solver(Mutex<linecontact::Solver<f64>>);
 
-impl Solver {
-    /// Runs work with the solver, for one thread at a time and not from within a curve that is
-    /// being solved. Other calls fail instead of waiting, as they might wait for ever.
-    fn with<R: Send>(
-        &self,
-        py: Python<'_>,
-        work: impl FnOnce(&mut linecontact::Solver<f64>) -> Result<R, ContactError<f64>> + Send,
-    ) -> PyResult<R> {
-        let Ok(mut solver) = self.0.try_lock() else {
-            let says = "this Solver is solving: one serves one thread at a time, make another";
-            return Err(PyRuntimeError::new_err(says));
-        };
-        let solver = &mut *solver;
-        call::library(py, || work(solver))
-    }
-}
-
 #[pymethods]
 impl Solver {
     #[new]
@@ -304,7 +287,7 @@ impl Solver {
         prescribed: Prescribed,
     ) -> PyResult<Solution> {
         let (contact, control) = (&scene.get().contact, control(prescribed)?);
-        self.with(py, |solver| solver.solve(contact, control)).map(Solution)
+        call::alone(py, &self.0, "Solver", |solver| solver.solve(contact, control)).map(Solution)
     }
 
     fn partial_slip(
@@ -315,8 +298,10 @@ impl Solver {
         acting: (f64, f64, f64),
     ) -> PyResult<PartialSlip> {
         let (contact, control) = (&scene.get().contact, control(prescribed)?);
-        self.with(py, |solver| solver.partial_slip(contact, control, shear(acting)))
-            .map(PartialSlip)
+        let slip = |solver: &mut linecontact::Solver<f64>| {
+            solver.partial_slip(contact, control, shear(acting))
+        };
+        call::alone(py, &self.0, "Solver", slip).map(PartialSlip)
     }
 }
 
