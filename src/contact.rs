@@ -9,7 +9,7 @@ pub use crate::edge::Edge;
 pub use control::Control;
 pub use edge_pressure::EdgePressure;
 
-use crate::error::{HELD_LOAD, is_subnormal};
+use crate::error::{check_given, is_subnormal};
 use crate::gap::{Cost, Gap, Shape};
 use crate::kernel::{Formula, Kernel, Layers, RegularKernel, SurfaceCompliance};
 use crate::material::{Elasticity, Foundation, PlaneState};
@@ -22,6 +22,11 @@ use beside::Beside;
 use edges::{Conditions, Given};
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
+
+/// Conditions on a load: where limits are sought, and between two corners.
+const POSITIVE: &str = "positive where limits are sought";
+const HELD: &str = "positive between two corners; single_interval(true) allows any sign, and gives \
+    the pressure unchecked";
 
 /// Two bodies to be pressed together, and the settings by which their contact is found.
 ///
@@ -439,11 +444,8 @@ impl<'b, T: Real> Contact<'b, T> {
         let edges = self.checked_edges()?;
         // Adhesion can bear a tensile load, and so can an interval that is not checked.
         let may_pull = edges.are_adhesive() || self.single_interval && !edges.are_sought();
-        if !may_pull {
-            check_positive(if edges.are_sought() { "load" } else { HELD_LOAD }, load)?;
-        } else if !load.is_finite() {
-            return Err(InputError::InvalidLoad { quantity: "load", value: load }.into());
-        }
+        let must = if edges.are_sought() { POSITIVE } else { HELD };
+        check_given("load", load, may_pull || is_positive(load), must)?;
         Ok(Conditions { kappa: self.kappa, edges, given: Given::Load(load) })
     }
 
@@ -504,11 +506,11 @@ pub(crate) fn check_positive<T: Real>(
     quantity: &'static str,
     value: T,
 ) -> Result<(), ContactError<T>> {
-    if value.is_finite() && value > T::zero() && !is_subnormal(value) {
-        Ok(())
-    } else {
-        Err(InputError::InvalidLoad { quantity, value }.into())
-    }
+    check_given(quantity, value, is_positive(value), POSITIVE)
+}
+
+fn is_positive<T: Real>(value: T) -> bool {
+    value > T::zero() && !is_subnormal(value)
 }
 
 /// Checks that an interval lies in a range, up to the rounding of its limits.

@@ -15,6 +15,7 @@
 //! F and M are the derivatives by δ and ψ of a convex function, for q rises with δ: load and moment
 //! determine approach and misalignment.
 
+use crate::error::check_given;
 use crate::gap::{Gap, Sampler, Shape};
 use crate::numerics::CompensatedSum;
 use crate::search::{Bracket, Newton, TryFindError, try_find_with_slope};
@@ -338,9 +339,7 @@ impl<T: Real> RollerState<T> {
 
 /// Refuses a load that is not positive and finite.
 fn valid<T: Real>(load: T) -> Result<(), ContactError<T>> {
-    let is_valid = load > T::zero() && load.is_finite();
-    let error = InputError::InvalidLoad { quantity: "load", value: load };
-    if is_valid { Ok(()) } else { Err(error.into()) }
+    check_given("load", load, load > T::zero(), "positive, or zero without a moment")
 }
 
 fn not_found<T: Real>(error: TryFindError<T, ContactError<T>>) -> ContactError<T> {

@@ -8,6 +8,7 @@
 //! tolerance, a point is added between them. From first touch to the first point the quantities are
 //! powers of the approach.
 
+use crate::error::check_given;
 use crate::real::same;
 use crate::solution::Approaching;
 use crate::{
@@ -162,13 +163,8 @@ impl<T: Real> SpringTable<T> {
         tolerance: T,
     ) -> Result<Self, ContactError<T>> {
         let [least, largest] = loads;
-        if !(least > T::zero() && least < largest && largest.is_finite()) {
-            let is_least = !(least > T::zero() && least.is_finite());
-            let largest_load = "largest load, which must be more than the least,";
-            let (quantity, value) =
-                if is_least { ("least load", least) } else { (largest_load, largest) };
-            return Err(InputError::InvalidLoad { quantity, value }.into());
-        }
+        check_given("least load", least, least > T::zero(), "positive")?;
+        check_given("largest load", largest, least < largest, "more than the least load")?;
         if !(tolerance > T::zero() && tolerance < T::one()) {
             return Err(InputError::InvalidTolerance { tolerance }.into());
         }

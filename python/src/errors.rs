@@ -132,7 +132,7 @@ table! {
     InputError, "", INPUT, transparent: [Shape, Pieces, Points];
     Profile { body, source };
     NoCommonRange { lower, upper };
-    InvalidLoad { quantity, value };
+    InvalidLoad { quantity, value, must };
     Pose { x, y, angle, source };
     InvalidKappa { kappa };
     InvalidModulus { modulus };

@@ -316,7 +316,12 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (
         lambda: contact(edges=(lc.Edge.fixed(-0.5), lc.Edge.fixed(0.5))).solve(load=0.0),
         "InvalidLoadError",
-        {"quantity": "load between two corners", "value": 0.0},
+        {
+            "quantity": "load",
+            "value": 0.0,
+            "must": "positive between two corners; single_interval(true) allows any sign, and gives the "
+            "pressure unchecked",
+        },
     ),
     (
         lambda: contact(edges=(lc.Edge.fixed(-0.5), lc.Edge.free())).solve(load=1e-3),

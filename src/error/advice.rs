@@ -16,18 +16,6 @@ pub(super) fn lost_digits<T: Real>(value: T) -> &'static str {
     }
 }
 
-/// Load where no limit is sought.
-pub(crate) const HELD_LOAD: &str = "load between two corners";
-
-/// Says which sign a quantity may have.
-pub(super) fn sign_of(quantity: &str) -> &'static str {
-    if quantity == HELD_LOAD {
-        "positive; single_interval(true) allows any sign, and gives the pressure unchecked"
-    } else {
-        "positive where limits are sought"
-    }
-}
-
 /// Rounds an abscissa for a message; the ends of a flat without ends become infinite.
 pub(super) fn place<T: Real>(x: T) -> Rounded {
     let endless = !(x * T::of(8.0)).is_finite();

@@ -1,7 +1,7 @@
 //! Errors of the input.
 
-use super::ReferenceError;
-use super::advice::{along, lost_digits, sign_of};
+use super::advice::{along, lost_digits};
+use super::{ContactError, ReferenceError};
 use crate::profile::SplineError;
 use crate::rounded::{apart, six, span};
 use crate::{Body, Edge, Interval, PiecewiseError, ProfileError, Real};
@@ -64,15 +64,17 @@ pub enum InputError<T: Real> {
     /// load may have any sign; of bodies that may lift off, a load of zero and an approach of zero
     /// or less leave them apart.
     #[error(
-        "the {quantity} is {value}: it must be finite, and {}{}",
-        sign_of(quantity), lost_digits(*value), value = six(*value)
+        "the {quantity} is {value}: it must be finite, and {must}{}",
+        lost_digits(*value), value = six(*value)
     )]
     InvalidLoad {
-        /// Quantity asked for: `load`, `load between two corners`, `half-width`, `peak pressure` or
-        /// `approach`.
+        /// Quantity asked for: `load`, `half-width`, `peak pressure` or `approach`; of a table of
+        /// springs `least load` or `largest load`.
         quantity: &'static str,
         /// Its value.
         value: T,
+        /// Condition on the value, besides that it is finite.
+        must: &'static str,
     },
     /// κ is not a positive finite number.
     #[error("κ = {kappa}: the scale must be positive and finite (κ = π E*/2)", kappa = six(*kappa))]
@@ -369,4 +371,18 @@ pub enum InputError<T: Real> {
          it, or use edges()"
     )]
     EdgePressureLoad,
+}
+
+/// Checks that a number is finite, and what else it must be.
+pub(crate) fn check_given<T: Real>(
+    quantity: &'static str,
+    value: T,
+    is_right: bool,
+    must: &'static str,
+) -> Result<(), ContactError<T>> {
+    if is_right && value.is_finite() {
+        Ok(())
+    } else {
+        Err(InputError::InvalidLoad { quantity, value, must }.into())
+    }
 }

@@ -2,7 +2,8 @@
 
 use super::Solved;
 use super::pressure_integral::{Density, Integrals};
-use crate::{ContactError, InputError, Interval, Pressure, Real, Solution, SolveError};
+use crate::error::check_given;
+use crate::{ContactError, Interval, Pressure, Real, Solution, SolveError};
 
 impl<T: Real> Solution<'_, T> {
     /// Returns the mean pressure: F over the widths of all contacts, `F/(a + b)` for a single one;
@@ -33,13 +34,11 @@ impl<T: Real> Solution<'_, T> {
     ///
     /// # Errors
     /// Those of [`pressure`](Self::pressure);
-    /// [`EvaluationError::Integral`](crate::EvaluationError::Integral); [`InputError::InvalidLoad`]
-    /// if F is zero.
+    /// [`EvaluationError::Integral`](crate::EvaluationError::Integral);
+    /// [`InputError::InvalidLoad`](crate::InputError::InvalidLoad) if F is zero.
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load();
-        if load.is_zero() {
-            return Err(InputError::InvalidLoad { quantity: "load", value: load }.into());
-        }
+        check_given("load", load, !load.is_zero(), "not zero")?;
         Ok(self.hull().half_width() * (T::moment(self)? / load))
     }
 }

@@ -2,8 +2,9 @@
 
 use super::pressure_integral::Integrals;
 use super::{Peak, Solution, Solved};
+use crate::error::check_given;
 use crate::gap::Cost;
-use crate::{ContactError, Ends, EvaluationError, InputError, Interval, Real};
+use crate::{ContactError, Ends, EvaluationError, Interval, Real};
 
 /// One of the intervals in which the bodies touch, with its load and largest pressure.
 ///
@@ -61,12 +62,11 @@ impl<T: Real> ContactRegion<T> {
     /// Returns the centre of pressure, `∫ x P dx/∫ P dx` over this contact.
     ///
     /// # Errors
-    /// [`InputError::InvalidLoad`] if the load is zero, as it may be with adhesion.
+    /// [`InputError::InvalidLoad`](crate::InputError::InvalidLoad) if the load is zero, as it may be
+    /// with adhesion.
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load;
-        if load.is_zero() {
-            return Err(InputError::InvalidLoad { quantity: "load", value: load }.into());
-        }
+        check_given("load", load, !load.is_zero(), "not zero")?;
         Ok(self.interval.centre() + self.half_width() * (self.turning / load))
     }
 }

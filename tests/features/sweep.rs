@@ -80,12 +80,13 @@ fn a_scene_that_fails_fails_alone() {
         if radius == 0.0 {
             assert_eq!(result, Err(Fault::Radius));
         } else if load < 0.0 {
-            let (quantity, value) = ("load", load);
+            let (quantity, value, must) = ("load", load, "positive where limits are sought");
             assert_eq!(
                 result,
                 Err(Fault::Contact(ContactError::Input(InputError::InvalidLoad {
                     quantity,
-                    value
+                    value,
+                    must
                 })))
             );
         } else {

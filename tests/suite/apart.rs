@@ -41,7 +41,11 @@ fn assert_apart(
     assert_eq!(solution.moment().unwrap(), 0.0);
     assert!(matches!(
         solution.centre_of_pressure(),
-        Err(ContactError::Input(InputError::InvalidLoad { quantity: "load", value: 0.0 }))
+        Err(ContactError::Input(InputError::InvalidLoad {
+            quantity: "load",
+            value: 0.0,
+            must: "not zero"
+        }))
     ));
     let pressure = solution.pressure().unwrap();
     assert!(pressure.sample(5).unwrap().is_empty());

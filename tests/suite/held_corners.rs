@@ -113,6 +113,10 @@ fn only_a_load_that_presses_makes_sense_unless_one_interval_is_asked_for() {
         assert!(refused(solve(false)), "{load}: {:?}", solve(false));
         assert!(solve(true).is_ok() || refused(solve(true)), "{load}: {:?}", solve(true));
         assert_eq!(solve(true).is_ok(), load.is_finite(), "{load}");
+        // The remedy belongs to a load between two corners only.
+        let remedy = solve(false).unwrap_err().to_string().contains("single_interval(true)");
+        let sought = flat.clone().solve(Control::Load(-1.0)).map(drop).unwrap_err();
+        assert!(remedy && !sought.to_string().contains("single_interval"), "{sought}");
     }
 }
 

@@ -55,8 +55,12 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["lower body"],
         ),
         (
-            ContactError::Input(InputError::InvalidLoad { quantity: "half-width", value: -9.5 }),
-            &["-9.5", "half-width", "positive"],
+            ContactError::Input(InputError::InvalidLoad {
+                quantity: "half-width",
+                value: -9.5,
+                must: "positive",
+            }),
+            &["the half-width is -9.5: it must be finite, and positive"],
         ),
         (
             ContactError::Input(InputError::InvalidModulus { modulus: -9.5 }),

@@ -75,12 +75,23 @@ fn what_makes_no_table_is_refused() {
     let body = Parabola::new(1.0, [-1.0, 1.0]).unwrap();
     let contact = steel(Contact::new(&Flat, &body).unwrap());
     let table = |loads, tolerance| SpringTable::new(&contact, &REFERENCES, loads, tolerance);
-    for loads in [[0.0, 1.0], [-1.0, 1.0], [0.1, 0.1], [0.2, 0.1], [f64::NAN, 1.0], [0.1, f64::NAN]]
-    {
-        assert!(
-            matches!(table(loads, 1e-3), Err(ContactError::Input(InputError::InvalidLoad { .. }))),
-            "{loads:?}"
-        );
+    let (positive, more) =
+        (("least load", "positive"), ("largest load", "more than the least load"));
+    for (loads, says) in [
+        ([0.0, 1.0], positive),
+        ([-1.0, 1.0], positive),
+        ([f64::NAN, 1.0], positive),
+        ([f64::INFINITY, 1.0], positive),
+        ([0.1, 0.1], more),
+        ([0.2, 0.1], more),
+        ([0.1, f64::NAN], more),
+        ([0.1, f64::INFINITY], more),
+    ] {
+        let error = table(loads, 1e-3).unwrap_err();
+        let ContactError::Input(InputError::InvalidLoad { quantity, must, .. }) = error else {
+            panic!("{loads:?}: {error}")
+        };
+        assert_eq!((quantity, must), says, "{loads:?}");
     }
     for tolerance in [0.0, -1.0, 1.0, f64::NAN] {
         let error = table([0.01, 0.1], tolerance).unwrap_err();

@@ -228,14 +228,17 @@ class InvalidLoadError(InputError):
     Attributes
     ----------
     quantity : str
-        Quantity asked for: `load`, `load between two corners`, `half-width`, `peak pressure` or
-        `approach`.
+        Quantity asked for: `load`, `half-width`, `peak pressure` or `approach`; of a table of
+        springs `least load` or `largest load`.
     value : float
         Its value.
+    must : str
+        Condition on the value, besides that it is finite.
     """
 
     quantity: str
     value: float
+    must: str
 
 
 class InvalidKappaError(InputError):

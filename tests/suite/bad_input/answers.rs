@@ -206,7 +206,8 @@ fn what_is_asked_of_a_solution() {
         || Ok(idle.centre_of_pressure()?),
         contact_error!(ContactError::Input(InputError::InvalidLoad {
             quantity: "load",
-            value: 0.0
+            value: 0.0,
+            must: "not zero"
         })),
     );
     let sticky = contact.clone().edges(Edge::Adhesive(1e-3), Edge::Free);

@@ -20,7 +20,7 @@ fn loads_scales_and_edges() {
                 continue;
             }
             table.solve(&format!("{name}({value:e})"), 0, &contact, way(value), |wrong| {
-                matches!(wrong, Wrong::Input(InputError::InvalidLoad { quantity, value: v })
+                matches!(wrong, Wrong::Input(InputError::InvalidLoad { quantity, value: v, .. })
                     if *quantity == says && same(*v, value))
             });
         }
@@ -161,7 +161,7 @@ fn edge_pressures_rules_and_tolerances() {
         }
         let by_pressure = contact.clone().edge_pressure(good);
         table.solve(&format!("Eq. (6) under {value}"), 0, &by_pressure, Control::Load(value), |wrong| {
-            matches!(wrong, Wrong::Input(InputError::InvalidLoad { quantity: "load", value: v }) if same(*v, value))
+            matches!(wrong, Wrong::Input(InputError::InvalidLoad { quantity: "load", value: v, .. }) if same(*v, value))
         });
     }
     let far = contact.clone().edge_pressure(EdgePressure::zero(2.4, 1e-6));
