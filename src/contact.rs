@@ -9,7 +9,7 @@ pub use crate::edge::Edge;
 pub use control::Control;
 pub use edge_pressure::EdgePressure;
 
-use crate::error::{check_given, is_subnormal};
+use crate::error::is_subnormal;
 use crate::gap::{Cost, Gap, Shape};
 use crate::kernel::{Formula, Kernel, Layers, RegularKernel, SurfaceCompliance};
 use crate::material::{Elasticity, Foundation, PlaneState};
@@ -507,6 +507,20 @@ pub(crate) fn check_positive<T: Real>(
     value: T,
 ) -> Result<(), ContactError<T>> {
     check_given(quantity, value, is_positive(value), POSITIVE)
+}
+
+/// Checks that a number is finite, and what else it must be.
+pub(crate) fn check_given<T: Real>(
+    quantity: &'static str,
+    value: T,
+    is_right: bool,
+    must: &'static str,
+) -> Result<(), ContactError<T>> {
+    if is_right && value.is_finite() {
+        Ok(())
+    } else {
+        Err(InputError::InvalidLoad { quantity, value, must }.into())
+    }
 }
 
 fn is_positive<T: Real>(value: T) -> bool {

@@ -9,7 +9,6 @@ mod solve;
 pub(crate) use advice::is_subnormal;
 pub use evaluation::EvaluationError;
 pub use input::InputError;
-pub(crate) use input::check_given;
 pub use reference::ReferenceError;
 pub use solve::SolveError;
 

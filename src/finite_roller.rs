@@ -15,9 +15,10 @@
 //! F and M are the derivatives by δ and ψ of a convex function, for q rises with δ: load and moment
 //! determine approach and misalignment.
 
-use crate::error::check_given;
+use crate::contact::check_given;
 use crate::gap::{Gap, Sampler, Shape};
 use crate::numerics::CompensatedSum;
+use crate::real::same;
 use crate::search::{Bracket, Newton, TryFindError, try_find_with_slope};
 use crate::{
     ContactError, EvaluationError, Flat, InputError, ParametricProfile, Real, SolveError,
@@ -193,13 +194,16 @@ impl<T: Real> FiniteRoller<T> {
     }
 
     /// Returns the state under a given load, a force, and tilting moment about the middle, force ×
-    /// length.
+    /// length. Without both the axis is parallel.
     ///
     /// # Errors
     /// [`SolveError::LoadBeyondSlices`]; [`SolveError::OneSlice`]; those of
     /// [`under_load`](Self::under_load), and of a moment that is not finite.
     pub fn under_moment(&self, load: T, moment: T) -> Result<RollerState<T>, ContactError<T>> {
-        valid(load)?;
+        if load.is_zero() && same(moment, T::zero()) {
+            return self.under_load(load, T::zero());
+        }
+        check_given("load", load, load > T::zero(), "positive, or zero without a moment")?;
         if !moment.is_finite() {
             return Err(InputError::InvalidMoment { value: moment }.into());
         }
@@ -239,7 +243,7 @@ impl<T: Real> FiniteRoller<T> {
         if load.is_zero() {
             return Ok(self.pressed(load, misalignment, nearest));
         }
-        valid(load)?;
+        check_given("load", load, load > T::zero(), "not negative")?;
         let pressed = |largest| self.pressed(largest, misalignment, nearest);
         let bracket = Bracket::new(T::zero(), self.alone(load));
         let value = |largest| {
@@ -335,11 +339,6 @@ impl<T: Real> RollerState<T> {
         let [[direct, coupling], [_, tilting]] = self.stiffness;
         tilting - coupling / direct * coupling
     }
-}
-
-/// Refuses a load that is not positive and finite.
-fn valid<T: Real>(load: T) -> Result<(), ContactError<T>> {
-    check_given("load", load, load > T::zero(), "positive, or zero without a moment")
 }
 
 fn not_found<T: Real>(error: TryFindError<T, ContactError<T>>) -> ContactError<T> {

@@ -8,7 +8,7 @@
 //! tolerance, a point is added between them. From first touch to the first point the quantities are
 //! powers of the approach.
 
-use crate::error::check_given;
+use crate::contact::check_given;
 use crate::real::same;
 use crate::solution::Approaching;
 use crate::{

@@ -47,7 +47,7 @@ pub enum Control<T> {
     ///
     /// Body 2 turns freely, as if hinged. Only the gap is turned, so that it does not matter which
     /// body turns, or about which point. The load must be positive, and must act at a place of the
-    /// bodies, `x₀ + M/F`.
+    /// bodies, `x₀ + M/F`; without load and moment they are apart, and do not turn.
     ///
     /// M adds one equation to the search, and the tilt one unknown (Johnson, *Contact Mechanics*,
     /// 1985, §2.7, has the flat punch under an eccentric load).

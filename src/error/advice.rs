@@ -37,6 +37,11 @@ pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, pea
     )
 }
 
+/// Returns the remedy for an approach that a table does not cover.
+pub(super) fn how_to_cover<T: Real>(approach: T, remedy: &'static str) -> &'static str {
+    if approach.is_finite() { remedy } else { "it must be finite" }
+}
+
 /// Names the span between two places, or their common place.
 pub(super) fn along<T: Real>([from, to]: [T; 2]) -> String {
     if from < to { format!("from x = {}", span(from, to)) } else { format!("at x = {}", six(from)) }

@@ -1,5 +1,6 @@
 //! Errors of questions to a solution.
 
+use super::advice::how_to_cover;
 use crate::rounded::{apart, six, span};
 use crate::{Interval, Real};
 use thiserror::Error;
@@ -40,8 +41,8 @@ pub enum EvaluationError<T: Real> {
     },
     /// The table of a spring does not cover this approach.
     #[error(
-        "the points of the table have approaches from {}, not {}: make it for larger loads",
-        span(range[0], range[1]), apart(*approach, range)
+        "the points of the table have approaches from {}, not {}: {}",
+        span(range[0], range[1]), apart(*approach, range), how_to_cover(*approach, "make it for larger loads")
     )]
     OutsideTable {
         /// Approach as given.
@@ -51,9 +52,9 @@ pub enum EvaluationError<T: Real> {
     },
     /// The table of a spring does not cover the slice of a roller that is pressed most.
     #[error(
-        "the slice at z = {}, pressed most, has an approach of {}, and the points of the table those from {}: \
-         make it for larger loads, or lower approach, load or misalignment",
-        six(*z), apart(*approach, range), span(range[0], range[1])
+        "the slice at z = {}, pressed most, has an approach of {}, and the points of the table those from {}: {}",
+        six(*z), apart(*approach, range), span(range[0], range[1]),
+        how_to_cover(*approach, "make it for larger loads, or lower approach, load or misalignment")
     )]
     SliceOutsideTable {
         /// Place of the slice along the axis, from the middle of the roller: a length.

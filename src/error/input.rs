@@ -1,7 +1,7 @@
 //! Errors of the input.
 
+use super::ReferenceError;
 use super::advice::{along, lost_digits};
-use super::{ContactError, ReferenceError};
 use crate::profile::SplineError;
 use crate::rounded::{apart, six, span};
 use crate::{Body, Edge, Interval, PiecewiseError, ProfileError, Real};
@@ -371,18 +371,4 @@ pub enum InputError<T: Real> {
          it, or use edges()"
     )]
     EdgePressureLoad,
-}
-
-/// Checks that a number is finite, and what else it must be.
-pub(crate) fn check_given<T: Real>(
-    quantity: &'static str,
-    value: T,
-    is_right: bool,
-    must: &'static str,
-) -> Result<(), ContactError<T>> {
-    if is_right && value.is_finite() {
-        Ok(())
-    } else {
-        Err(InputError::InvalidLoad { quantity, value, must }.into())
-    }
 }

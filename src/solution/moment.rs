@@ -2,7 +2,7 @@
 
 use super::Solved;
 use super::pressure_integral::{Density, Integrals};
-use crate::error::check_given;
+use crate::contact::check_given;
 use crate::{ContactError, Interval, Pressure, Real, Solution, SolveError};
 
 impl<T: Real> Solution<'_, T> {

@@ -2,7 +2,7 @@
 
 use super::pressure_integral::Integrals;
 use super::{Peak, Solution, Solved};
-use crate::error::check_given;
+use crate::contact::check_given;
 use crate::gap::Cost;
 use crate::{ContactError, Ends, EvaluationError, Interval, Real};
 

@@ -7,6 +7,7 @@
 use super::first_contact::first_contact;
 use super::{Contact, Control, Work, Workspace};
 use crate::gap::{Asked, Cost, Gap, Sampler};
+use crate::real::same;
 use crate::solution::{Approaching, ContactState, Outcome, Solved, Start};
 use crate::{ContactError, Edge, EvaluationError, Interval, Real, SolveError};
 
@@ -19,16 +20,20 @@ pub(super) fn find<T: Real>(
     work: &mut Work<'_, T>,
 ) -> Result<Option<ContactState<T>>, ContactError<T>> {
     let zero = T::zero();
-    match control {
-        // A difference has no negative zero.
-        Control::Load(load) if load.is_zero() => {
-            lifted(contact, control, [zero - load, zero], work)
+    // A difference has no negative zero.
+    let at = match control {
+        Control::Load(load) if load.is_zero() => [zero - load, zero],
+        Control::Moment { load, moment, about }
+            if load.is_zero() && same(moment, zero) && about.is_finite() =>
+        {
+            [zero - load, zero]
         }
         Control::Approach { approach, .. } if approach <= zero && approach.is_finite() => {
-            lifted(contact, control, [zero, zero - approach], work)
+            [zero, zero - approach]
         }
-        _ => Ok(None),
-    }
+        _ => return Ok(None),
+    };
+    lifted(contact, control, at, work)
 }
 
 /// Returns the state under this load and at this distance, unless an edge may pull or is held.

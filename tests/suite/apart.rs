@@ -101,6 +101,7 @@ fn a_roller_above_a_flat_is_apart() {
     for (control, separation) in [
         (Control::Load(0.0), 0.0),
         (Control::Load(-0.0), 0.0),
+        (Control::Moment { load: 0.0, moment: -0.0, about: 0.4 }, 0.0),
         (approach(0.0), 0.0),
         (approach(-0.3), 0.3),
     ] {
@@ -118,6 +119,11 @@ fn a_roller_above_a_flat_is_apart() {
     });
     let error = error.map(drop).unwrap_err();
     assert!(matches!(error, ContactError::Input(InputError::InvalidReference { .. })), "{error}");
+    for about in [f64::NAN, f64::INFINITY] {
+        let error = contact.solve(Control::Moment { load: 0.0, moment: 0.0, about });
+        let error = error.map(drop).unwrap_err();
+        assert!(matches!(error, ContactError::Input(InputError::InvalidMoment { .. })), "{error}");
+    }
     // Held edges and glued ones answer as before.
     let glued = contact.clone().edges(Edge::Adhesive(1e-3), Edge::Adhesive(1e-3));
     assert!(!glued.solve(Control::Load(0.0)).unwrap().is_apart());

@@ -426,7 +426,9 @@ fn apart_a_roller_bears_nothing() {
         let back = roller.under_load(little.load, misalignment).unwrap();
         assert!((back.approach - little.approach).abs() < 1e-15);
     }
-    assert!(roller.under_moment(0.0, 1.0).is_err());
+    assert_eq!(roller.under_moment(0.0, 0.0).unwrap(), roller.under_load(0.0, 0.0).unwrap());
+    let error = roller.under_moment(0.0, 1.0).unwrap_err();
+    assert!(error.to_string().ends_with("zero without a moment"), "{error}");
 }
 
 #[test]
@@ -447,6 +449,8 @@ fn loads_that_no_table_covers_are_refused() {
     for approach in [1.0, f64::INFINITY, f64::NAN] {
         outside(cylinder.at(approach, 0.0), -4.875);
     }
+    let endless = cylinder.at(f64::NAN, 0.0).unwrap_err().to_string();
+    assert!(endless.ends_with("must be finite"), "{endless}");
     outside(cylinder.at(0.01, 1e-2), 4.875);
     outside(cylinder.at(0.01, -1e-2), -4.875);
     outside(cylinder.under_load(5e3, 1.0), 4.875);

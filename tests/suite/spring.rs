@@ -106,10 +106,11 @@ fn what_makes_no_table_is_refused() {
     ));
     let table = table([0.01, 0.1], 1e-3).unwrap();
     for approach in [1.0, f64::INFINITY, f64::NAN] {
-        assert!(matches!(
-            table.at(approach),
-            Err(ContactError::Evaluation(EvaluationError::OutsideTable { .. }))
-        ));
+        let error = table.at(approach).unwrap_err();
+        assert!(matches!(error, ContactError::Evaluation(EvaluationError::OutsideTable { .. })));
+        // No load makes the table cover what is no number.
+        let remedy = if approach.is_finite() { "larger loads" } else { "must be finite" };
+        assert!(error.to_string().ends_with(remedy), "{error}");
     }
     let ends: Vec<f64> = table.points().map(|point| point.approach).collect();
     assert!((table.at(ends[0]).unwrap().load / 0.01 - 1.0).abs() < 1e-14);
