@@ -190,14 +190,12 @@ impl<T: Real> SpringTable<T> {
             let ratio = to.point.load / from.point.load;
             let place = |share: f64| from.point.load * ratio.powf(T::of(share));
             let (middle, beside) = (solve(place(0.5))?, solve(place(STEEPEST))?);
-            let [mut error, mut stiffness_error] = [T::zero(); 2];
             let width = (to.point.approach / from.point.approach).ln();
-            for exact in [middle, beside] {
-                let found = between(&[from, to], exact.point.approach);
-                let [of_values, of_stiffness] = difference(&exact, &found, width);
-                error = error.max(T::of(SAFETY_FACTOR) * of_values);
-                stiffness_error = stiffness_error.max(T::of(SAFETY_FACTOR) * of_stiffness);
-            }
+            let off = [middle, beside].map(|exact| {
+                difference(&exact, &between(&[from, to], exact.point.approach), width)
+            });
+            let [error, stiffness_error] =
+                [0, 1].map(|of| T::of(SAFETY_FACTOR) * off[0][of].max(off[1][of]));
             let is_apart = ratio > T::one() + T::of(LEAST_STEP_OF_TABLE);
             if error > tolerance && is_apart && table.points.len() + pending.len() < MAX_TABLE {
                 pending.extend([[middle, to], [from, middle]]);
@@ -244,11 +242,10 @@ impl<T: Real> SpringTable<T> {
         let range = self.range();
         let rounding = T::of(4.0) * T::epsilon() * range[1];
         // NaN is not known either.
-        let is_known = approach <= range[1] + rounding;
-        if !is_known {
-            return Err(EvaluationError::OutsideTable { approach, range }.into());
+        if approach <= range[1] + rounding {
+            return Ok(self.continued(approach.min(range[1])));
         }
-        Ok(self.continued(approach.min(range[1])))
+        Err(EvaluationError::OutsideTable { approach, range }.into())
     }
 
     /// Returns the state at any approach: beyond the last point, too, load, half-width and peak go

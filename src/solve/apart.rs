@@ -74,10 +74,9 @@ pub(crate) fn first_touch<T: Real>(
     // Heights as close as under a load that would flatten half the digits of the bodies.
     let aside = ContactState::least_height(gap.range());
     let look = workspace.look(gap, Asked::Load(aside), cost)?;
-    let mut lowest = look.lowest();
+    let (mut lowest, mut sampler) = (look.lowest(), Sampler::default());
     if !(ends.left..=ends.right).contains(&lowest) {
         // The body ends at a corner before.
-        let mut sampler = Sampler::default();
         let mut places = look.heights(gap);
         for x in ends {
             places.push([x, sampler.height(gap, x)?]);
@@ -91,9 +90,7 @@ pub(crate) fn first_touch<T: Real>(
     if !(around.left > ends.left && around.right < ends.right) {
         return Ok(lowest);
     }
-    let mut sampler = Sampler::default();
-    let found = first_contact(&mut sampler, gap, Some(around));
-    let found = match found {
+    let found = match first_contact(&mut sampler, gap, Some(around)) {
         // The middle of a flat will do.
         Err(ContactError::Solve(SolveError::NoFirstContact { .. })) => Ok(lowest),
         Ok(place) if !gap.is_breakpoint(place) => differentiated(&mut sampler, gap, place, aside),
