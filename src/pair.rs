@@ -6,7 +6,7 @@
 
 use crate::gap::{Sampler, Shape};
 use crate::material::Foundation;
-use crate::profile::{Convexity, CurvePoint, Piece, Placed, Placement};
+use crate::profile::{Convexity, CurvePoint, Piece, Placed, Placement, finite};
 use crate::solution::is_steep;
 use crate::{
     Body, Contact, ContactError, Control, InputError, ParametricProfile, PlaneState, ProfileError,
@@ -45,6 +45,13 @@ impl<T: Real> Pose<T> {
         let back = Self { angle: -other.angle, ..*other };
         let [x, y] = back.turned([self.x - other.x, self.y - other.y]);
         Self { x, y, angle: self.angle - other.angle }
+    }
+
+    /// Checks that all its numbers are finite.
+    fn check(&self) -> Result<(), ProfileError<T>> {
+        finite("the x of a pose", self.x, true, "finite")?;
+        finite("the y of a pose", self.y, true, "finite")?;
+        finite("the angle of a pose", self.angle, true, "finite")
     }
 
     /// Returns the pose moved by a step in one of its numbers.
@@ -209,24 +216,15 @@ impl<'b, T: Real> Pair<'b, T> {
 
     fn pressed(&mut self, lower: Pose<T>, upper: Pose<T>) -> Result<Pressed<T>, ContactError<T>> {
         let seen = upper.seen_from(&lower);
-        let Pose { x, y, angle } = seen;
-        let named = |source| ContactError::Input(InputError::Pose { x, y, angle, source });
-        let placement = Placement::default().rotated(angle).shifted(x, y);
-        let [lower_body, body] = self.bodies.each_ref().map(|shape| shape.profile());
-        let asked = (self.materials, self.state, self.references);
-        let solver = &mut self.solver;
-        let found = match Piece::first_of(body).map_err(named)? {
-            None => {
-                let body = Placed::new(body, placement).map_err(named)?;
-                pressed_in_frame((lower_body, &body), asked, &seen, solver)
-            }
-            Some((count, _)) => {
-                let body = Joined::new(body, count, placement).map_err(named)?;
-                pressed_in_frame((lower_body, &body), asked, &seen, solver)
-            }
-        };
+        let poses = lower.check().and(upper.check()).map_err(ContactError::from);
+        let found = poses.and_then(|()| self.pressed_in_frame(&seen));
         let mut found = found.map_err(|error| match error {
-            ContactError::Input(InputError::Profile { body: Body::Upper, source }) => named(source),
+            ContactError::Input(
+                InputError::Shape(source) | InputError::Profile { body: Body::Upper, source },
+            ) => {
+                let Pose { x, y, angle } = seen;
+                InputError::Pose { x, y, angle, source }.into()
+            }
             error => error,
         })?;
         let Wrench { force, at, .. } = &mut found.wrench;
@@ -234,50 +232,59 @@ impl<'b, T: Real> Pair<'b, T> {
         (*force, *at) = (lower.turned(*force), [lower.x + x, lower.y + y]);
         Ok(found)
     }
-}
 
-/// Returns the force of two bodies in the frame of the first.
-fn pressed_in_frame<T: Real>(
-    (lower, upper): (&dyn ParametricProfile<T>, &dyn ParametricProfile<T>),
-    (materials, state, mut references): ([Foundation<T>; 2], PlaneState, References<T>),
-    seen: &Pose<T>,
-    solver: &mut Solver<T>,
-) -> Result<Pressed<T>, ContactError<T>> {
-    let zero = T::zero();
-    let apart = |penetration: T, at: [T; 2]| {
-        let (force, torque, contacts, is_steep) = ([zero; 2], [zero; 2], 0, false);
-        let wrench = Wrench { penetration, force, at, torque, contacts, is_steep };
-        Ok(Pressed { wrench, half_width: zero, arm: [zero; 2] })
-    };
-    let contact = match Contact::new(lower, upper) {
-        Err(ContactError::Input(InputError::NoCommonRange { .. })) => {
-            return apart(-T::one() / zero, [seen.x, seen.y]);
+    /// Returns the force in the frame of body 1, from where body 2 is seen.
+    fn pressed_in_frame(&mut self, seen: &Pose<T>) -> Result<Pressed<T>, ContactError<T>> {
+        let zero = T::zero();
+        let apart = |penetration: T, at: [T; 2]| {
+            let (force, torque, contacts, is_steep) = ([zero; 2], [zero; 2], 0, false);
+            let wrench = Wrench { penetration, force, at, torque, contacts, is_steep };
+            Ok(Pressed { wrench, half_width: zero, arm: [zero; 2] })
+        };
+        let [lower, body] = self.bodies.each_ref().map(|shape| shape.profile());
+        let placement = Placement::default().rotated(seen.angle).shifted(seen.x, seen.y);
+        let (smooth, joined);
+        let upper: &dyn ParametricProfile<T> = match Piece::first_of(body)? {
+            None => {
+                smooth = Placed::new(body, placement)?;
+                &smooth
+            }
+            Some((count, _)) => {
+                joined = Joined::new(body, count, placement)?;
+                &joined
+            }
+        };
+        let contact = match Contact::new(lower, upper) {
+            Err(ContactError::Input(InputError::NoCommonRange { .. })) => {
+                return apart(-T::one() / zero, [seen.x, seen.y]);
+            }
+            contact => contact?.materials(self.materials[0], self.materials[1], self.state),
+        };
+        let [place, gap] = self.solver.first_touch(&contact)?;
+        let mut sampler = Sampler::default();
+        let mut height = |x: T| sampler.body_height(&contact.gap, Body::Lower, x);
+        if -gap <= T::of(ROUNDING) * T::epsilon() * (seen.x.abs() + seen.y.abs()) {
+            return apart(-gap, [place, height(place)?]);
         }
-        contact => contact?.materials(materials[0], materials[1], state),
-    };
-    let [place, gap] = solver.first_touch(&contact)?;
-    let mut sampler = Sampler::default();
-    let mut height = |x: T| sampler.body_height(&contact.gap, Body::Lower, x);
-    if -gap <= T::of(ROUNDING) * T::epsilon() * (seen.x.abs() + seen.y.abs()) {
-        return apart(-gap, [place, height(place)?]);
+        let [from, to] = contact.gap.range();
+        let x = (seen.x + self.references.x).max(from).min(to);
+        let references = References { x, ..self.references };
+        let control = Control::Approach { approach: -gap, references };
+        let solution = self.solver.solve(&contact, control)?;
+        let (load, x) = (solution.load(), solution.centre_of_pressure()?);
+        let at = [x, height(x)?];
+        let slope = sampler.body_slope(&contact.gap, Body::Lower, x, Side::Left)?;
+        let wrench = Wrench {
+            penetration: -gap,
+            force: [zero, load],
+            at,
+            torque: [-x * load, (x - seen.x) * load],
+            contacts: solution.intervals().len(),
+            is_steep: is_steep(slope) || solution.has_steep_limits(),
+        };
+        let arm = [x - seen.x, at[1] - seen.y];
+        Ok(Pressed { wrench, half_width: solution.hull().half_width(), arm })
     }
-    let [from, to] = contact.gap.range();
-    references.x = (seen.x + references.x).max(from).min(to);
-    let control = Control::Approach { approach: -gap, references };
-    let solution = solver.solve(&contact, control)?;
-    let (load, x) = (solution.load(), solution.centre_of_pressure()?);
-    let at = [x, height(x)?];
-    let slope = sampler.body_slope(&contact.gap, Body::Lower, x, Side::Left)?;
-    let wrench = Wrench {
-        penetration: -gap,
-        force: [zero, load],
-        at,
-        torque: [-x * load, (x - seen.x) * load],
-        contacts: solution.intervals().len(),
-        is_steep: is_steep(slope) || solution.has_steep_limits(),
-    };
-    let arm = [x - seen.x, at[1] - seen.y];
-    Ok(Pressed { wrench, half_width: solution.hull().half_width(), arm })
 }
 
 /// Body of several pieces in the frame of another body.

@@ -235,7 +235,7 @@ forward! {
 }
 
 /// Refuses a parameter of a shape that is not finite, or where `holds` is false.
-fn finite<T: Real>(
+pub(crate) fn finite<T: Real>(
     name: &'static str,
     value: T,
     holds: bool,

@@ -240,6 +240,15 @@ fn poses_that_are_none_are_named_and_steep_contacts_are_said() {
         assert!(matches!(error, ContactError::Input(InputError::Pose { .. })), "{error}");
         assert!(error.to_string().contains("seen from body 1"), "{error}");
     }
+    // The number of a pose that is none is named, not what follows from it.
+    for (lower, upper, says) in [
+        (REST, pose(0.0, f64::INFINITY, 0.0), "the y of a pose is inf"),
+        (pose(f64::NAN, 0.0, 0.0), REST, "the x of a pose is NaN"),
+        (REST, pose(0.0, 0.0, f64::NEG_INFINITY), "the angle of a pose is -inf"),
+    ] {
+        let error = pair.at(lower, upper).unwrap_err().to_string();
+        assert!(error.ends_with(&format!("{says}: it must be finite")), "{error}");
+    }
     // After an error it goes on.
     assert!(!pair.at(REST, pose(0.0, -0.01, 0.0)).unwrap().is_steep);
     let flank = graph(-2.0, 2.0, |x| [0.5 * x, 0.5]);
