@@ -81,8 +81,8 @@ pub enum Reference<T> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct References<T> {
-    /// Abscissa x of the references, on the bodies. It matters for depths of a few half-widths, not
-    /// for far larger ones, nor for discs and lengths.
+    /// Abscissa x of the references, on the bodies or beside them. It matters for depths of a few
+    /// half-widths, not for far larger ones, nor for discs and lengths.
     pub x: T,
     /// Reference of body 1.
     pub lower: Reference<T>,

@@ -58,7 +58,7 @@ use super::load_rates::LoadRates;
 use super::pressure_integral::{Density, Integrals};
 use super::solved::Solved;
 use super::undeformed_gap::UndeformedGap;
-use crate::gap::Sampler;
+use crate::gap::{Gap, Sampler};
 use crate::kernel::{Bend, Periodic, RegularKernel, wavenumbers};
 use crate::material::Elasticity;
 use crate::quadrature::{Engine, Panels};
@@ -115,7 +115,7 @@ impl<T: Real> Solution<'_, T> {
     ///
     /// # Errors
     /// [`InputError::NoMaterials`] without [`Contact::materials`](crate::Contact::materials);
-    /// [`InputError::InvalidReference`]; [`SolveError::OutsideBodies`]; those of
+    /// [`InputError::InvalidReference`]; [`SolveError::OutsideBodies`] if x is not finite; those of
     /// [`pressure`](Self::pressure);
     /// [`EvaluationError::Integral`](crate::EvaluationError::Integral);
     /// [`EvaluationError::HalfPlanesOnly`](crate::EvaluationError::HalfPlanesOnly) with a kernel
@@ -184,7 +184,7 @@ impl<T: Real> Solution<'_, T> {
     /// ```
     ///
     /// # Errors
-    /// As [`approach`](Self::approach); [`SolveError::OutsideBodies`] if x is not finite.
+    /// As [`approach`](Self::approach).
     pub fn displacement(
         &self,
         body: Body,
@@ -211,6 +211,12 @@ struct Referred<T> {
     is_depth: bool,
 }
 
+/// Returns a place on or beside the bodies, in the period that was solved.
+fn place<T: Real>(gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
+    let (x, range) = (gap.folded(x), gap.range());
+    if x.is_finite() { Ok(x) } else { Err(SolveError::OutsideBodies { x, range }.into()) }
+}
+
 /// Contact in which the bodies touched first, by its number, and the heights of the gap there.
 struct First<T> {
     contact: usize,
@@ -229,10 +235,7 @@ impl<'s, T: Real> Approaching<'s, T> {
             solved.of_half_planes("the approach (but that of layers)")?;
         }
         let References { x, lower, upper } = *references;
-        let (x, range) = (solved.gap.folded(x), solved.gap.range());
-        if !(x >= range[0] && x <= range[1]) {
-            return Err(SolveError::OutsideBodies { x, range }.into());
-        }
+        let x = place(solved.gap, x)?;
         let half_width = solved.found.interval.half_width();
         let period = kernel.and_then(|kernel| kernel.row.as_ref()).map(|row| row.period);
         let referred = |body: Elasticity<T>, reference| {
@@ -524,10 +527,7 @@ impl<'s, T: Real> Approaching<'s, T> {
     /// Returns the displacement of the surface of a body at any x towards its reference.
     pub fn of_surface(&self, body: Body, x: T) -> Result<T, ContactError<T>> {
         let Solved { gap, found, .. } = self.solved;
-        let x = gap.folded(x);
-        if !x.is_finite() {
-            return Err(SolveError::OutsideBodies { x, range: gap.range() }.into());
-        }
+        let x = place(gap, x)?;
         if found.apart.is_some() {
             return Ok(T::zero());
         }

@@ -7,8 +7,8 @@ use crate::integrals::{integral, strength};
 use linecontact::profile::{Ellipse, Parabola};
 use linecontact::reference::{ClosedForm, Hertz};
 use linecontact::{
-    Contact, ContactError, Control, Edge, Flat, InputError, Material, Midpoint, ParametricProfile,
-    Piecewise, PlaneState, Reference, References, Solution, SolveError, Solver,
+    Body, Contact, ContactError, Control, Edge, Flat, InputError, Material, Midpoint,
+    ParametricProfile, Piecewise, PlaneState, Reference, References, Solution, SolveError, Solver,
 };
 use std::f64::consts::{E, PI};
 
@@ -457,7 +457,7 @@ fn what_cannot_be_answered_is_refused() {
     let error = solution.approach(&disc(0.99 * solution.a())).unwrap_err();
     assert!(matches!(error, ContactError::Input(InputError::InvalidReference { .. })), "{error}");
     assert!(solution.stiffness(&disc(1.01 * solution.a())).unwrap() > 0.0);
-    for x in [-1.5, f64::NAN] {
+    for x in [f64::NEG_INFINITY, f64::NAN] {
         let error = solution.approach(&deep(x, 1.0)).unwrap_err();
         assert!(matches!(error, ContactError::Solve(SolveError::OutsideBodies { .. })), "{error}");
     }
@@ -465,6 +465,34 @@ fn what_cannot_be_answered_is_refused() {
     let rigid = with(Material::Rigid, STEEL).solve(Control::Load(0.01)).unwrap();
     let upper = Reference::Depth(1.0);
     assert!(rigid.approach(&References { x: 0.0, lower: Reference::Depth(-1.0), upper }).is_ok());
+}
+
+/// A half-plane goes on beyond the end of its body, and discs and lengths have no place.
+#[test]
+fn references_beside_the_bodies_are_those_of_half_planes() {
+    let body = Parabola::new(1.0, [-0.5, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().materials(STEEL, SOFT, PlaneState::Strain);
+    let solution = contact.solve(Control::Load(0.01)).unwrap();
+    for x in [-0.5, -0.6, 3.0] {
+        let found = solution.approach(&deep(x, 1.5)).unwrap();
+        for (found, material) in [(found.lower, STEEL), (found.upper, SOFT)] {
+            let exact = by_definition(&solution, material, x, 1.5);
+            assert!((found / exact - 1.0).abs() < 1e-9, "{x}: {found} {exact}");
+        }
+        let control = Control::Approach { approach: found.bodies, references: deep(x, 1.5) };
+        let again = contact.solve(control);
+        assert!((again.unwrap().load() / 0.01 - 1.0).abs() < 1e-12, "{x}");
+        let [at, inside] = [x, 0.1].map(|x| References {
+            x,
+            lower: Reference::Length(7.0),
+            upper: Reference::Disc(2.0),
+        });
+        let [at, inside] = [at, inside].map(|to| {
+            let beside = solution.displacement(Body::Lower, 0.9, &to).unwrap();
+            (solution.approach(&to).unwrap().bodies, solution.stiffness(&to).unwrap(), beside)
+        });
+        assert_eq!(at, inside, "{x}");
+    }
 }
 
 #[test]
