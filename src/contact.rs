@@ -372,6 +372,11 @@ impl<'b, T: Real> Contact<'b, T> {
     /// ```
     #[must_use]
     pub fn resolution(self, length: T) -> Self {
+        self.with_resolution(Some(length))
+    }
+
+    /// Sets the narrowest feature to be seen; `None` for the default.
+    pub(crate) fn with_resolution(self, length: Option<T>) -> Self {
         Self { gap: self.gap.with_resolution(length), ..self }
     }
 

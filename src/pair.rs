@@ -94,7 +94,7 @@ pub struct Wrench<T> {
 /// is a curve without a turn, and the material of body 2 is above the curve as it stands. So a
 /// round body that rolls keeps its angle, with its origin in the middle: its turn changes nothing.
 /// A contact that reaches an end of the bodies is an error, and features narrower than those that
-/// [`Contact::solve`] sees are not seen.
+/// [`Contact::solve`] sees are not seen unless a [`resolution`](Self::resolution) asks for them.
 ///
 /// ```
 /// use linecontact::profile::Parabola;
@@ -119,6 +119,7 @@ pub struct Pair<'b, T: Real> {
     materials: [Foundation<T>; 2],
     state: PlaneState,
     references: References<T>,
+    resolution: Option<T>,
     solver: Solver<T>,
 }
 
@@ -157,15 +158,22 @@ impl<'b, T: Real> Pair<'b, T> {
         materials: (impl Into<Foundation<T>>, impl Into<Foundation<T>>),
         references: References<T>,
     ) -> Self {
-        let (state, solver) = (PlaneState::Strain, Solver::new());
+        let (state, resolution, solver) = (PlaneState::Strain, None, Solver::new());
         let materials = [materials.0.into(), materials.1.into()];
-        Self { bodies, materials, state, references, solver }
+        Self { bodies, materials, state, references, resolution, solver }
     }
 
     /// Sets the plane state of both bodies.
     #[must_use]
     pub fn plane_state(self, state: PlaneState) -> Self {
         Self { state, ..self }
+    }
+
+    /// Sets the narrowest feature of the bodies to be seen, a length along the x axis of body 1: as
+    /// [`Contact::resolution`]. Each step then samples all of the bodies.
+    #[must_use]
+    pub fn resolution(self, length: T) -> Self {
+        Self { resolution: Some(length), ..self }
     }
 
     /// Returns the force of the bodies on each other where they stand. It starts from the contact
@@ -260,6 +268,7 @@ impl<'b, T: Real> Pair<'b, T> {
             }
             contact => contact?.materials(self.materials[0], self.materials[1], self.state),
         };
+        let contact = contact.with_resolution(self.resolution);
         let [place, gap] = self.solver.first_touch(&contact)?;
         let mut sampler = Sampler::default();
         let mut height = |x: T| sampler.body_height(&contact.gap, Body::Lower, x);

@@ -175,9 +175,7 @@ impl<T: Real> Scene<T> {
         if let Some(Ends { left, right }) = self.edges {
             contact = contact.edges(left, right);
         }
-        if let Some(length) = self.resolution {
-            contact = contact.resolution(length);
-        }
+        contact = contact.with_resolution(self.resolution);
         if let Some(period) = self.period {
             contact = contact.period(period);
         }

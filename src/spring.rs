@@ -12,8 +12,7 @@ use crate::contact::check_given;
 use crate::real::same;
 use crate::solution::Approaching;
 use crate::{
-    Contact, ContactError, Control, EvaluationError, InputError, Interval, Real, References,
-    Solution, Solver,
+    Contact, ContactError, Control, EvaluationError, InputError, Real, References, Solution, Solver,
 };
 
 /// Largest number of points of a table.
@@ -256,7 +255,11 @@ impl<T: Real> SpringTable<T> {
             let (load, stiffness, half_contact, peak) = (zero, zero, zero, Some(zero));
             return SpringPoint { approach, load, stiffness, half_contact, peak };
         }
-        self.nearest(approach).at(approach)
+        let range = self.range();
+        let within = approach.max(range[0]).min(range[1]);
+        let next = self.points.partition_point(|node| node.point.approach < within);
+        let next = next.clamp(1, self.points.len() - 1);
+        between(&[self.points[next - 1], self.points[next]], within).at(approach)
     }
 
     /// Returns an approach, that of the last point or more, at which the continued table has at
@@ -270,15 +273,6 @@ impl<T: Real> SpringTable<T> {
     pub(crate) fn range(&self) -> [T; 2] {
         [0, self.points.len() - 1].map(|i| self.points[i].point.approach)
     }
-
-    /// Returns the state at the nearest approach within the table.
-    fn nearest(&self, approach: T) -> Node<T> {
-        let range = self.range();
-        let approach = approach.max(range[0]).min(range[1]);
-        let next = self.points.partition_point(|node| node.point.approach < approach);
-        let next = next.clamp(1, self.points.len() - 1);
-        between(&[self.points[next - 1], self.points[next]], approach)
-    }
 }
 
 /// Returns the point of a solution.
@@ -289,10 +283,8 @@ fn node<T: Real>(
     let approaching = Approaching::new(solution.solved(), solution.elasticity, references)?;
     let [approach, rate] = approaching.with_rate()?;
     let (load, rates) = (solution.load(), solution.load_rates()?);
-    let halves = solution.intervals().iter().map(Interval::half_width);
-    let half_contact = halves.fold(T::zero(), |sum, half| sum + half);
-    let widening = rates.limits.iter().map(|rates| T::of(0.5) * (rates.right - rates.left));
-    let widening = widening.fold(T::zero(), |sum, rate| sum + rate);
+    let half_contact = solution.intervals().iter().fold(T::zero(), |sum, on| sum + on.half_width());
+    let widening = rates.limits.iter().fold(T::zero(), |sum, on| sum + (on.right - on.left));
     let (peak, growth) = match solution.peak() {
         Ok(peak) => (Some(peak.pressure), rates.pressure(peak.x)? / peak.pressure),
         Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => (None, T::zero()),
@@ -300,7 +292,7 @@ fn node<T: Real>(
     };
     let stiffness = T::one() / rate;
     let by = approach * stiffness;
-    let exponents = [by / load, by * widening / half_contact, by * growth];
+    let exponents = [by / load, by * T::of(0.5) * widening / half_contact, by * growth];
     Ok(Node { point: SpringPoint { approach, load, stiffness, half_contact, peak }, exponents })
 }
 

@@ -21,8 +21,8 @@ const LEAST_RESOLUTION: f64 = 32.0;
 impl<T: Real> Gap<'_, T> {
     /// Returns this gap with the length of the narrowest feature to be seen. The shape of the
     /// bodies is then examined whatever they declare.
-    pub(crate) fn with_resolution(self, resolution: T) -> Self {
-        Self { resolution: Some(resolution), convex: false, ..self }
+    pub(crate) fn with_resolution(self, resolution: Option<T>) -> Self {
+        Self { resolution, convex: self.convex && resolution.is_none(), ..self }
     }
 
     pub(crate) fn resolution(&self) -> Option<T> {

@@ -246,6 +246,30 @@ fn apart_is_the_same_with_layers_periods_and_other_quadratures() {
     assert!((solution.gap_at(5.25).unwrap() - 0.02).abs() < 1e-15);
 }
 
+#[test]
+fn a_resolution_holds_at_first_touch() {
+    // A burr below the lowest place of a parabola, and ten times narrower than the first samples.
+    let burr = graph(-1.0, 1.0, |x| {
+        let s = (x - 0.6303) / 0.0005;
+        let rest = (1.0 - s * s).max(0.0);
+        [0.5 * x * x - 0.25 * rest.powi(3), x + 1.5 * s * rest.powi(2) / 0.0005]
+    });
+    let contact = steel(Contact::new(&Flat, &*burr).unwrap());
+    let close = contact.clone().resolution(1e-3);
+    let mut solver = Solver::new();
+    for control in [Control::Load(0.0), approach(-0.3)] {
+        let missed = contact.solve(control).unwrap();
+        let _ = solver.solve(&contact, control).unwrap();
+        let found = [solver.solve(&close, control).unwrap(), close.solve(control).unwrap()];
+        assert!(missed.a().abs() < 1e-9, "{missed}");
+        for found in found {
+            assert!((found.a() - 0.6303).abs() < 1e-5, "{found}");
+            let above = found.gap_at(0.0).unwrap() - found.separation();
+            assert!((above - (0.25 - 0.5 * 0.6303f64.powi(2))).abs() < 1e-6, "{above}");
+        }
+    }
+}
+
 /// Features that the first samples miss are no proof: a dent that lies lower, and a hole of NaN.
 #[test]
 fn what_first_samples_miss_is_not_certified() {

@@ -126,6 +126,36 @@ fn a_birth_leaves_no_jump() {
     assert_eq!(numbers, [0, 1, 2]);
 }
 
+/// A burr that no default sample meets bears alone, if it is asked for.
+#[test]
+fn a_resolution_shows_what_is_narrow() {
+    let burr = graph(-1.0, 1.0, |x| {
+        let s = (x - 0.6303) / 0.0005;
+        let rest = (1.0 - s * s).max(0.0);
+        let height = 0.25 * rest.powi(3);
+        [0.5 * x * x - height, x + 1.5 * s * rest.powi(2) / 0.0005]
+    });
+    let lifted = pose(3.0, 0.01, 0.0);
+    let mut pair = Pair::new(&Flat, &*burr, (STEEL, STEEL), TO);
+    assert_eq!(pair.at(REST, lifted).unwrap().contacts, 0);
+    let mut pair = pair.resolution(1e-3);
+    for (y, contacts) in [(0.06, 0), (0.01, 1), (-0.03, 2), (0.07, 0)] {
+        let wrench = pair.at(REST, pose(3.0, y, 0.0)).unwrap();
+        assert_eq!(wrench.contacts, contacts, "{y}: {wrench:?}");
+        let lowest = 0.5 * 0.6303f64.powi(2) - 0.25;
+        assert!((wrench.penetration + lowest + y).abs() < 1e-6, "{y}: {wrench:?}");
+        assert!(contacts == 2 || (wrench.at[0] - 3.6303).abs() < 1e-5, "{y}: {wrench:?}");
+    }
+    for length in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-9] {
+        let mut pair = Pair::new(&Flat, &*burr, (STEEL, STEEL), TO).resolution(length);
+        let error = pair.at(REST, lifted).unwrap_err();
+        assert!(
+            matches!(error, ContactError::Input(InputError::InvalidResolution { .. })),
+            "{length}: {error}"
+        );
+    }
+}
+
 #[test]
 fn the_stiffness_is_that_of_closed_forms() {
     // A circle about its centre: a turn changes nothing.

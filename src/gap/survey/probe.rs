@@ -274,13 +274,15 @@ impl<T: Real> Survey<T> {
         found: &mut Vec<Stretch<T>>,
     ) {
         found.clear();
-        let [Some(first), Some(last)] = [contacts.first(), contacts.last()] else { return };
-        let hull = T::of(0.5) * (last.right - first.left);
+        // Before first touch nothing is near a contact.
+        let ends = contacts.first().zip(contacts.last());
+        let infinite = T::one() / T::zero();
+        let hull = ends.map_or(infinite, |(on, last)| T::of(0.5) * (last.right - on.left));
         let nodes = self.nodes.iter().map(|node| [node.x, node.height]);
         let limits = contacts.iter().map(|on| on.left).chain([self.lowest]);
         let heights = nodes.chain(limits.map(|x| [x, self.height_near(x)]));
         let heights = heights.map(|[x, height]| gap.turned(x, height));
-        let lowest = heights.fold(T::one() / T::zero(), |least: T, height| least.min(height));
+        let lowest = heights.fold(infinite, |least: T, height| least.min(height));
         let ratio = (self.range[1] - self.range[0]) / hull;
         let level = lowest + load * (T::one() + ratio.max(T::one()).ln());
         let (asked, mut next) = (gap.asked_spacing(), 0);

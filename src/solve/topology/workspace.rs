@@ -15,7 +15,7 @@ const MAX_START_UNCERTAINTY: f64 = 0.25;
 #[derive(Clone)]
 pub(crate) struct Workspace<T> {
     /// Heights of the bodies, and the number of their gap.
-    pub(super) look: Survey<T>,
+    pub(in super::super) look: Survey<T>,
     pub(super) of: Option<u64>,
     /// Length of the narrowest feature of the last request.
     pub(super) resolution: Option<T>,
@@ -85,7 +85,7 @@ impl<T: Real> Workspace<T> {
 
     /// Forgets the searches for narrow features, and the solutions that have passed, if another
     /// resolution is requested.
-    pub(super) fn look_for_features(&mut self, gap: &Gap<'_, T>) {
+    pub(in super::super) fn look_for_features(&mut self, gap: &Gap<'_, T>) {
         if self.resolution != gap.resolution() {
             self.resolution = gap.resolution();
             self.passed.clear();
