@@ -27,12 +27,17 @@ impl Pair {
         upper: &Profile,
         materials: (Surface, Surface, String),
         to: ReferenceRow,
+        resolution: Option<f64>,
     ) -> PyResult<Self> {
         let (one, other, state) = &materials;
         let surfaces = (foundation(one, &mut AsTheyAre)?, foundation(other, &mut AsTheyAre)?);
         let (lower, upper, to) = (lower.built.clone(), upper.built.clone(), references(to)?);
-        let pair = linecontact::Pair::owned(lower, upper, surfaces, to);
-        Ok(Self(Mutex::new(pair.plane_state(plane(state)?))))
+        let mut pair =
+            linecontact::Pair::owned(lower, upper, surfaces, to).plane_state(plane(state)?);
+        if let Some(length) = resolution {
+            pair = pair.resolution(length);
+        }
+        Ok(Self(Mutex::new(pair)))
     }
 
     fn at(&self, py: Python<'_>, lower: [f64; 3], upper: [f64; 3]) -> PyResult<Row> {

@@ -6,6 +6,7 @@ from typing import Any
 import linecontact as lc
 import numpy as np
 import pytest
+from scenes import Array
 
 STEEL = lc.Material(210e3, 0.3)
 TO = lc.References(0.0, lc.Reference.depth(30.0), lc.Reference.disc(10.0))
@@ -35,6 +36,26 @@ def test_pose_in_wrench_out() -> None:
     np.testing.assert_allclose(again.at(lc.Pose(), lc.Pose(0.5, -0.01)).force, found.force, rtol=1e-12)
 
 
+def test_a_resolution_shows_a_burr() -> None:
+    def burred(x: Array) -> tuple[Array, Array, Array, Array]:
+        s = (x - 0.6303) / 0.0005
+        rest = np.maximum(1.0 - s * s, 0.0)
+        return x, 0.05 * x * x - 0.04 * rest**3, np.ones_like(x), 0.1 * x + 0.24 * s * rest**2 / 0.0005
+
+    burr = lc.Curve((-1.0, 1.0), burred)
+    pairs = [lc.Pair(lc.Flat(), burr, materials=(STEEL, STEEL), references=TO, resolution=of) for of in (None, 1e-3)]
+    found = [one.at(lc.Pose(), lc.Pose(0.0, 0.01)) for one in pairs]
+    assert [one.contacts for one in found] == [0, 1]
+    assert found[1].at[0] == pytest.approx(0.6303, abs=1e-4)
+    again = pickle.loads(pickle.dumps(pair(resolution=-1.0)))
+    with pytest.raises(lc.errors.InvalidResolutionError):
+        again.at(lc.Pose(), lc.Pose())
+    with pytest.raises(lc.errors.InvalidResolutionError):
+        pair(resolution=-1.0).at(lc.Pose(), lc.Pose())
+    with pytest.raises(TypeError, match="resolution"):
+        pair(resolution="fine")
+
+
 def test_apart_and_mistakes() -> None:
     both = pair()
     lifted = both.at(lc.Pose(), lc.Pose(0.0, 0.2))
@@ -44,6 +65,8 @@ def test_apart_and_mistakes() -> None:
     with pytest.raises(lc.errors.PoseError, match="seen from body 1") as raised:
         both.at(lc.Pose(), lc.Pose(0.0, -0.1, 1.5))
     assert raised.value.angle == 1.5 and isinstance(raised.value.source, lc.LineContactError)
+    with pytest.raises(lc.errors.PoseError, match="the y of a pose is inf: it must be finite"):
+        both.at(lc.Pose(), lc.Pose(0.0, np.inf))
     with pytest.raises(TypeError, match="a pose is 3"):
         both.at(3, lc.Pose())  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="lower body"):

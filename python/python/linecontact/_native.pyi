@@ -136,7 +136,9 @@ class SpringTable:
 
 @final
 class Pair:
-    def __new__(cls, lower: Profile, upper: Profile, materials: Any, to: _References) -> Pair: ...
+    def __new__(
+        cls, lower: Profile, upper: Profile, materials: Any, to: _References, resolution: float | None
+    ) -> Pair: ...
     def at(
         self, lower: tuple[float, float, float], upper: tuple[float, float, float]
     ) -> tuple[float, list[float], list[float], list[float], int, bool]: ...

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -98,6 +99,9 @@ class Pair:
         References of the approach; their x is counted from the origin of the upper body.
     plane : {"strain", "stress"}
         Plane state.
+    resolution : float, optional
+        Narrowest feature of the bodies to be seen, a length, as of `Contact`. Each step then samples
+        all of the bodies.
 
     Examples
     --------
@@ -112,7 +116,7 @@ class Pair:
     array([0., 0.])
     """
 
-    __slots__ = ("_made_of", "_pair")
+    __slots__ = ("_again", "_pair")
 
     def __init__(
         self,
@@ -122,17 +126,20 @@ class Pair:
         materials: Sequence[Foundation],
         references: References,
         plane: Plane = "strain",
+        resolution: float | None = None,
     ) -> None:
         for name, body in (("lower", lower), ("upper", upper)):
             if not isinstance(body, Body):
                 raise TypeError(f"the {name} body is {body!r}: give a body, such as Flat()")
         one_of(plane, "plane", ("strain", "stress"))
-        self._made_of = lower, upper, materials, references, plane
+        resolution = None if resolution is None else as_number(resolution, "resolution")
+        to = references
+        self._again = partial(Pair, lower, upper, materials=materials, references=to, plane=plane, resolution=resolution)
         surfaces = (*map(_foundation, _both(materials)), plane)
-        self._pair = _native.Pair(lower._profile, upper._profile, surfaces, references)
+        self._pair = _native.Pair(lower._profile, upper._profile, surfaces, to, resolution)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _made_again, self._made_of
+        return self._again, ()
 
     def at(self, lower: Sequence[float], upper: Sequence[float]) -> Wrench:
         """Returns the force of the bodies on each other where they stand.
@@ -163,8 +170,3 @@ def _pose(given: Sequence[float]) -> tuple[float, float, float]:
     except (TypeError, ValueError):
         raise TypeError(f"a pose is {given!r}: give x, y and an angle, as Pose(1.0, 2.0, 0.1)") from None
     return as_number(x, "x"), as_number(y, "y"), as_number(angle, "angle")
-
-
-def _made_again(lower: Body, upper: Body, materials: Any, references: References, plane: Plane) -> Pair:
-    """Restores a pickled pair."""
-    return Pair(lower, upper, materials=materials, references=references, plane=plane)
