@@ -202,6 +202,18 @@ def test_cut_level_and_shift() -> None:
         profile.cut(4.0, 5.0)
     with pytest.raises(ValueError, match="have 0 points: a line is fitted to two or more"):
         profile.levelled((4.0, 5.0))
+    # The ends of a part may be open, and are in order.
+    np.testing.assert_array_equal(level.cut(-np.inf, 0.0).points, level.points[:21])
+    for wrong in ((np.nan, 1.0), (0.0, np.nan), (1.0, -1.0)):
+        with pytest.raises(ValueError, match="a part of x is from .* to .*: give its ends, the left one first"):
+            profile.cut(*wrong)
+        with pytest.raises(ValueError, match="a part of x is from"):
+            profile.levelled((-2.0, -1.0), wrong)
+    for along, across in ((np.nan, 0.0), (0.0, np.inf)):
+        with pytest.raises(ValueError, match="along, across are .*: give finite lengths"):
+            profile.shifted(along, across)
+    with pytest.raises(TypeError, match="along is '1'"):
+        profile.shifted("1")  # type: ignore[arg-type]
 
 
 # Standard files.

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import surfaces
-from ._numbers import FloatArray, Range, one_of
+from ._numbers import FloatArray, Range, as_number, as_range, one_of
 from .errors import MeasuredFileError
 
 __all__ = ["MeasuredProfile", "read_profile"]
@@ -78,8 +78,7 @@ class MeasuredProfile(NamedTuple):
 
         Cut before smoothing: a `Spline` has one smoothing for all its points.
         """
-        x = self.points[:, 0]
-        inside = self.points[(first <= x) & (x <= last)]
+        x, inside = self.points[:, 0], self.points[self._within((first, last))]
         if len(inside) < 2:
             raise ValueError(f"cut from {first:g} to {last:g} leaves {len(inside)} points: x is from {x[0]:g} to {x[-1]:g}")
         return self._replace(points=inside)
@@ -93,8 +92,8 @@ class MeasuredProfile(NamedTuple):
         """
         x, z = self.points.T
         is_fitted = np.full(len(x), not parts)
-        for first, last in parts:
-            is_fitted |= (first <= x) & (x <= last)
+        for part in parts:
+            is_fitted |= self._within(part)
         if np.sum(is_fitted) < 2:
             raise ValueError(f"parts {parts} have {np.sum(is_fitted)} points: a line is fitted to two or more")
         middle = np.mean(x[is_fitted])
@@ -103,7 +102,16 @@ class MeasuredProfile(NamedTuple):
 
     def shifted(self, along: float = 0.0, across: float = 0.0) -> MeasuredProfile:
         """Adds `along` to x and `across` to the heights."""
-        return self._replace(points=self.points + [along, across])
+        by = as_number(along, "along"), as_number(across, "across")
+        if not np.isfinite(by).all():
+            raise ValueError(f"along, across are {by}: give finite lengths")
+        return self._replace(points=self.points + by)
+
+    def _within(self, part: Range) -> npt.NDArray[np.bool_]:
+        first, last = as_range(part, "a part of x")
+        if not first <= last:
+            raise ValueError(f"a part of x is from {first:g} to {last:g}: give its ends, the left one first")
+        return (first <= self.points[:, 0]) & (self.points[:, 0] <= last)
 
 
 def read_profile(
@@ -144,7 +152,8 @@ def read_profile(
     facing : {"up", "down"}, optional
         Part to be kept of a profile whose x turns back, as that of a flange: what is seen from
         above, which is what can touch, or from below where the file has heights into the
-        material. By default an x that turns back is an error.
+        material. A spline bridges the cliffs of that part, as at an overhang: cut there. By default
+        an x that turns back is an error.
 
     Returns
     -------
