@@ -1,5 +1,6 @@
 """Bodies that no load presses together."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -69,15 +70,21 @@ def test_the_command_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     csv, npz, vtk = (tmp_path / f"of.{ending}" for ending in ("csv", "npz", "vtk"))
     assert main(["solve", str(scene), "--load", "0", "--csv", str(csv), "--yield-stress", "500"]) == 0
     printed = capsys.readouterr().out
+    assert re.search("^safety by Tresca +inf +against yield at 500", printed, re.MULTILINE)
     assert "apart by" in printed and "no load presses the bodies together" in printed
     head, row = csv.read_text().splitlines()
     assert row.split(",")[head.split(",").index("apart_by")] == "0.0"
     assert main(["solve", str(scene), "--load", "0", "--vtk", str(vtk)]) == 0
     assert "apart under load = 0" in capsys.readouterr().err and not vtk.exists()
+    assert main(["solve", str(scene), "--load", "0:0:2", "--npz", str(npz)]) == 0
+    alone = dict(np.load(npz))
     page = tmp_path / "of.html"
     files = ["--csv", str(csv), "--npz", str(npz), "--vtk", str(vtk), "--page", str(page)]
     assert main(["solve", str(scene), "--load", "0:400:3", *files]) == 0
     assert len(csv.read_text().splitlines()) == 4 and page.is_file()
-    fields = np.load(npz)
+    fields = dict(np.load(npz))
     assert np.isnan(fields["pressure"][0]).all() and np.isfinite(fields["pressure"][1:]).all()
+    # The same fields if nothing is pressed at all.
+    assert {name: of.shape[1:] for name, of in alone.items()} == {name: of.shape[1:] for name, of in fields.items()}
+    assert np.isnan(alone["max_shear"]).all() and alone["load"].tolist() == [0.0, 0.0]
     assert sorted(path.name for path in tmp_path.glob("*.vtk")) == ["of_0002.vtk", "of_0003.vtk"]

@@ -45,12 +45,15 @@ def write_npz(path: Path, rows: Sequence[Row]) -> None:
     """Writes the numbers of all rows, and their fields: arrays whose first index is the row.
 
     `pressure` is at `x`; stresses are at `depth`, the second index, and `field_x`, the third. If a
-    body has a layer, each body has stresses of its own: `lower_sigma_x`, at `lower_depth`.
+    body has a layer, each body has stresses of its own: `lower_sigma_x`, at `lower_depth`. Where the
+    bodies are apart all of them are NaN.
     """
     arrays: dict[str, Any] = {name: [row.numbers[name] for row in rows] for name in NUMBERS} | _places(rows)
-    fields = [_fields(row.solution) if row.solution and not row.solution.is_apart else {} for row in rows]
+    fields = [_fields(row.solution) if row.solution else {} for row in rows]
+    are_pressed = [row.solution is not None and not row.solution.is_apart for row in rows]
     for name, like in next(filter(None, fields), {}).items():
-        arrays[name] = [field.get(name, np.full_like(like, np.nan)) for field in fields]
+        nowhere = np.full_like(like, np.nan)
+        arrays[name] = [field[name] if one else nowhere for field, one in zip(fields, are_pressed, strict=True)]
     with path.open("wb") as file:
         np.savez_compressed(file, **arrays)
 
@@ -107,7 +110,8 @@ def _fields(solution: Solution) -> dict[str, FloatArray]:
 def _field(solution: Solution, body: Side | None, deepest: float) -> dict[str, FloatArray]:
     """Returns stresses on a grid below the contacts, which is denser next to the surface."""
     x = solution.centre + _REACH * solution.half_width * np.linspace(-1.0, 1.0, _COLUMNS)
-    reach = min(_REACH, deepest / solution.half_width - _FIRST)
+    # If the bodies are apart, all is in one point.
+    reach = min(_REACH, deepest / (solution.half_width or 1.0) - _FIRST)
     depth = solution.half_width * (_FIRST + reach * np.linspace(0.0, 1.0, _DEPTHS) ** 2)
     depth = np.minimum(depth, deepest)
     stress = solution.stress(x, depth[:, None], body=body)

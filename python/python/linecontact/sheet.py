@@ -129,7 +129,8 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
         note(lambda: [solution.approach(to).bodies], "approach")
         note(lambda: [solution.stiffness(to)], "stiffness")
     if yield_stress is not None:
-        numbers.update({f"safety_{of}": yield_stress / (numbers[of] or math.nan) for of in ("von_mises", "tresca")})
+        for of in ("von_mises", "tresca"):
+            numbers[f"safety_{of}"] = yield_stress / numbers[of] if numbers[of] != 0.0 else math.inf
     for name in ("centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
         numbers[name] = 0.0 if abs(numbers[name]) < _ROUNDING * solution.half_width else numbers[name]
     named = {name: words for name, words in places.items() if words}
