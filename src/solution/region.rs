@@ -62,8 +62,8 @@ impl<T: Real> ContactRegion<T> {
     /// Returns the centre of pressure, `∫ x P dx/∫ P dx` over this contact.
     ///
     /// # Errors
-    /// [`InputError::InvalidLoad`](crate::InputError::InvalidLoad) if the load is zero, as it may be
-    /// with adhesion.
+    /// [`InputError::InvalidLoad`](crate::InputError::InvalidLoad) if the load is zero, as it may
+    /// be with adhesion.
     pub fn centre_of_pressure(&self) -> Result<T, ContactError<T>> {
         let load = self.load;
         check_given("load", load, !load.is_zero(), "not zero")?;
