@@ -149,12 +149,11 @@ def _draw_points(axes: Axes, contact: Contact, up: float, tilt: float) -> None:
 
 def measured(body: Body) -> FloatArray | None:
     """Returns the measured points of a body as rows of x and y, placed as it is; None without any."""
-    if isinstance(body, Spline):
-        return body.points
-    if not isinstance(body, Placed) or not isinstance(body.body, Spline):
+    spline, steps = (body.body, body.steps) if isinstance(body, Placed) else (body, ())
+    if not isinstance(spline, Spline):
         return None
-    z: Any = body.body.points @ (1.0, 1.0j)
-    for step, numbers in body.steps:
+    z: Any = spline.points @ (1.0, 1.0j)
+    for step, numbers in steps:
         if step == "shifted":
             z = z + complex(*numbers)
         elif step == "rotated":

@@ -50,10 +50,10 @@ def write_npz(path: Path, rows: Sequence[Row]) -> None:
     """
     arrays: dict[str, Any] = {name: [row.numbers[name] for row in rows] for name in NUMBERS} | _places(rows)
     fields = [_fields(row.solution) if row.solution else {} for row in rows]
-    are_pressed = [row.solution is not None and not row.solution.is_apart for row in rows]
+    widths = arrays["half_width"]
     for name, like in next(filter(None, fields), {}).items():
-        nowhere = np.full_like(like, np.nan)
-        arrays[name] = [field[name] if one else nowhere for field, one in zip(fields, are_pressed, strict=True)]
+        none = np.full_like(like, np.nan)
+        arrays[name] = [of[name] if width > 0.0 else none for of, width in zip(fields, widths, strict=True)]
     with path.open("wb") as file:
         np.savez_compressed(file, **arrays)
 

@@ -216,11 +216,9 @@ def _polyline(name: str, layer: str | None) -> tuple[list[_Edge], bool]:
         raise ImportError("DXF files are read by ezdxf: pip install './python[dxf]'") from None
     try:
         space = ezdxf.readfile(name).modelspace()
-    except ezdxf.DXFError as error:
-        raise MeasuredFileError(name, f"no DXF file: {error}") from None
-    except OSError as error:
-        # So ezdxf refuses what is no DXF file, without a number.
-        if error.errno is not None:
+    except (ezdxf.DXFError, OSError) as error:
+        # An error without a number is no fault of the system: ezdxf refuses what is no DXF file.
+        if getattr(error, "errno", None) is not None:
             raise
         raise MeasuredFileError(name, f"no DXF file: {error}") from None
     lines = [one for one in space.query("LWPOLYLINE POLYLINE") if layer in (None, one.dxf.layer)]

@@ -132,11 +132,10 @@ class Pair:
             if not isinstance(body, Body):
                 raise TypeError(f"the {name} body is {body!r}: give a body, such as Flat()")
         one_of(plane, "plane", ("strain", "stress"))
-        resolution = None if resolution is None else as_number(resolution, "resolution")
-        to = references
-        self._again = partial(Pair, lower, upper, materials=materials, references=to, plane=plane, resolution=resolution)
+        given: dict[str, Any] = {"materials": materials, "references": references}
+        self._again = partial(Pair, lower, upper, plane=plane, resolution=resolution, **given)
         surfaces = (*map(_foundation, _both(materials)), plane)
-        self._pair = _native.Pair(lower._profile, upper._profile, surfaces, to, resolution)
+        self._pair = _native.Pair(lower._profile, upper._profile, surfaces, references, resolution)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return self._again, ()
