@@ -43,16 +43,21 @@ def test_no_load_is_an_answer(solve: Callable[..., lc.Solution]) -> None:
         assert "svg" in solution._repr_svg_()
         with pytest.raises(lc.errors.InvalidLoadError):
             solution.centre_of_pressure
+    # Nobody is infinitely far away.
+    with pytest.raises(lc.errors.InvalidLoadError, match="the approach is -inf: it must be finite"):
+        solve(approach=-np.inf, references=TO)
+    assert solve(load=0.0, moment=0.0).is_apart
     with pytest.raises(lc.errors.InvalidLoadError, match="single_interval"):
         lc.solve(lc.Flat(), ROLLER, edges=(lc.Edge.fixed(-0.1), lc.Edge.fixed(0.1)), kappa=1.0, load=0.0)
 
 
 def test_a_sweep_lifts_off() -> None:
     wanted = ["load", "separation", "peak_pressure", "stiffness", "centre_of_pressure", "contacts", "is_checked"]
-    found = lc.sweep(CONTACT, quantities=wanted, approach=[0.01, 0.0, -0.3], references=TO)
-    assert not found.errors and found["load"][0] > 0.0
-    assert found["separation"].tolist() == [0.0, 0.0, 0.3] and found["load"][1:].tolist() == [0.0, 0.0]
-    assert found["contacts"].tolist() == [1.0, 0.0, 0.0] and np.isnan(found["centre_of_pressure"][1:]).all()
+    found = lc.sweep(CONTACT, quantities=wanted, approach=[0.01, 0.0, -0.3, -np.inf], references=TO)
+    assert found["error"].tolist() == ["", "", "", "InvalidLoadError"]
+    assert found["load"][0] > 0.0
+    assert found["separation"][:3].tolist() == [0.0, 0.0, 0.3] and found["load"][1:3].tolist() == [0.0, 0.0]
+    assert found["contacts"].tolist() == [1.0, 0.0, 0.0, 0.0] and np.isnan(found["centre_of_pressure"][1:]).all()
 
 
 def test_a_picture_shows_the_bodies() -> None:

@@ -128,6 +128,7 @@ def test_mistakes() -> None:
     for length in (0.0, -1.0, math.nan, math.inf):
         with pytest.raises(lc.errors.InvalidRollerError):
             lc.FiniteRoller(TABLE, length)
+    assert CYLINDER.under_moment(0.0, 0.0).load == 0.0
     for load in (-1.0, math.nan, math.inf):
         with pytest.raises(lc.errors.InvalidLoadError):
             CYLINDER.under_load(load)
