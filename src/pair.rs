@@ -211,8 +211,8 @@ impl<'b, T: Real> Pair<'b, T> {
         let size = wrench.penetration.min(half_width);
         for (which, size) in [size, size, turn].into_iter().enumerate() {
             let step = T::of(DIFFERENCE) * size;
-            let ends = [-step, step].map(|step| self.at(lower, upper.moved(which, step)));
-            let [before, after] = ends;
+            let [before, after] =
+                [-step, step].map(|step| self.at(lower, upper.moved(which, step)));
             let [before, after] =
                 [before?, after?].map(|at| [at.force[0], at.force[1], at.torque[1]]);
             for (row, stiffness) in stiffness.iter_mut().enumerate() {

@@ -173,17 +173,15 @@ impl<T: Real> SpringTable<T> {
         let (zero, mut touch_error) = (T::zero(), T::zero());
         for share in LIGHTER_SHARES.map(T::of) {
             let off = match solve(share * least) {
-                Ok(Node { point, .. }) => {
-                    (first.at(point.approach).load - point.load).abs() / least
-                }
+                Ok(at) => (first.at(at.point.approach).load - at.point.load).abs() / least,
                 // Corners may not hold so light a load.
                 Err(ContactError::Solve(_)) => T::one(),
                 Err(error) => return Err(error),
             };
             touch_error = touch_error.max(T::of(SAFETY_FACTOR) * off);
         }
-        let points = vec![first];
-        let mut table = Self { points, error: zero, stiffness_error: zero, touch_error };
+        let mut table =
+            Self { points: vec![first], error: zero, stiffness_error: zero, touch_error };
         let mut pending = vec![[first, last]];
         while let Some([from, to]) = pending.pop() {
             let ratio = to.point.load / from.point.load;

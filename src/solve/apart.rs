@@ -73,14 +73,13 @@ pub(crate) fn first_touch<T: Real>(
     let (gap, ends) = (&contact.gap, contact.ends());
     // Heights as close as under a load that would flatten half the digits of the bodies.
     let aside = ContactState::least_height(gap.range());
-    let asked = Asked::Load(aside);
     gap.check_resolution(T::zero())?;
     if gap.resolution().is_some() {
         workspace.look_for_features(gap);
-        workspace.look(gap, asked, cost)?;
+        workspace.look(gap, Asked::Load(aside), cost)?;
         workspace.look.resolve(gap, aside, &[], cost)?;
     }
-    let look = workspace.look(gap, asked, cost)?;
+    let look = workspace.look(gap, Asked::Load(aside), cost)?;
     let (mut lowest, mut sampler) = (look.lowest(), Sampler::default());
     if !(ends.left..=ends.right).contains(&lowest) {
         // The body ends at a corner before.
