@@ -166,12 +166,13 @@ impl<T: Real> Kernel<'_, T> {
 /// c and a compliance at its wavenumber: of a pressure that is corrected, of r, and the most of any
 /// pressure that reach r.
 ///
-/// r has singularities c above the ends of the interval, and its series converges with the root of
-/// L/c; so many terms leave 1e-15 of it for 2L/c from 0.1 to 90, and so few a correction of 1e-4 to
-/// 1e-6 (found by trial). On a thin layer that is a share of what the kernel takes away, and more
-/// are needed for the same share of the compliance that is left: the error falls like
-/// `exp(-4 c n/2L)`. Coefficients beyond the most meet only wavenumbers at which K - 1 is below
-/// rounding.
+/// r has singularities c above the ends of the interval, on an ellipse around it with the sum ρ of
+/// the half-axes, in half-widths: its series converges like `ρ⁻ⁿ`. As they are no simple poles, it
+/// takes some more for rounding (by trial, up to 2L/c = 90). So few terms as the first number leave
+/// a correction of 1e-4 to 1e-6 (found by trial, too). On a thin layer that is a share of what the
+/// kernel takes away, and more are needed for the same share of the compliance that is left: the
+/// error falls like `exp(-4 c n/2L)`. Coefficients beyond the most meet only wavenumbers at which
+/// K - 1 is below rounding, or terms of K that are.
 pub(crate) fn terms<T: Real>(distance: T, compliance: T, on: Interval<T>) -> [usize; 3] {
     let ratio = ratio(distance, on);
     let sum = |first: f64, by_root: f64, by_ratio: f64| {
@@ -179,14 +180,33 @@ pub(crate) fn terms<T: Real>(distance: T, compliance: T, on: Interval<T>) -> [us
     };
     let softness: f64 = compliance.component(0).to_subset_unchecked();
     let corrected = sum(8.0, 4.0, 2.2 + 0.25 * -softness.min(1.0).ln());
-    [corrected, sum(14.0, 24.0, 0.0).max(corrected), sum(30.0, 0.0, 10.0)]
+    let of_r = at_least(T::of(6.0) - T::epsilon().ln() / ellipse(ratio).ln());
+    // A formula without singularities is no constant.
+    let of_r = of_r.max(LEAST_TERMS);
+    [corrected, of_r.max(corrected), sum(30.0, 0.0, 10.0).min(at_least(degree(ratio)))]
 }
 
-/// Returns the number of nodes for integrals of a pressure times the kernel: K(x, s) is to rounding
-/// a polynomial of degree 8 + 36 L/c in s, and the rule is exact up to twice its nodes.
-fn nodes<T: Real>(distance: T, spread: &Spread<T>) -> usize {
-    let ratio = ratio(distance, spread.on);
-    at_least(T::of(0.5) * (T::of(8.0) + T::of(18.0) * ratio + T::count(spread.q.len())))
+/// Returns the sum of the half-axes of the ellipse with its foci at ±1 through `1 + i 2/ratio`.
+fn ellipse<T: Real>(ratio: T) -> T {
+    let (one, two, high) = (T::one(), T::of(2.0), T::of(2.0) / ratio.max(T::epsilon()));
+    // The root of z² - 1 = w² (2i/w - 1) for a height w.
+    let size = (high * high + T::of(4.0)).sqrt();
+    let along = (two * high / (size + high)).sqrt();
+    let above = (T::of(0.5) * high * (size + high)).sqrt();
+    (one + along).hypot(high + above)
+}
+
+/// Returns the degree of the polynomial in s that K(x, s) is, to rounding, for x in the contact.
+fn degree<T: Real>(ratio: T) -> T {
+    T::of(8.0) + T::of(18.0) * ratio
+}
+
+/// Returns the number of nodes for integrals of a pressure times the kernel, and the number of its
+/// terms that count: the rule is exact up to twice its nodes.
+fn nodes<T: Real>(distance: T, spread: &Spread<T>) -> [usize; 2] {
+    let degree = degree(ratio(distance, spread.on));
+    let terms = at_least(degree).min(spread.q.len());
+    [at_least(T::of(0.5) * (degree + T::count(terms))), terms]
 }
 
 fn ratio<T: Real>(distance: T, on: Interval<T>) -> T {
@@ -197,6 +217,9 @@ fn ratio<T: Real>(distance: T, on: Interval<T>) -> T {
 pub(crate) fn at_least<T: Real>(value: T) -> usize {
     (0..MAX_TERMS).find(|&n| T::count(n) >= value).unwrap_or(MAX_TERMS)
 }
+
+/// Least number of terms of r.
+const LEAST_TERMS: usize = 14;
 
 /// Least distance of the next period that is taken, by the period: on the way to a solution.
 const LEAST_DISTANCE: f64 = 2e-4;

@@ -63,8 +63,11 @@ impl<T: Real> Correction<T> {
             let old = |x: T| bend.map_or(T::zero(), |bend| bend.slope(x));
             let rho = new.iter().zip(&place.between).map(|(&new, &x)| new - old(x));
             place.rho = rho.collect();
-            // A comparison loses NaN.
-            let is_known = |(&x, &rho): (&T, &T)| (rho + loads.height(kernel, x)).is_finite();
+            // A comparison loses NaN, which a formula may have in its integral alone.
+            let is_known = |(&x, &rho): (&T, &T)| {
+                rho.is_finite()
+                    && (kernel.formula.is_none() || loads.height(kernel, x).is_finite())
+            };
             let mut each = place.between.iter().zip(&place.rho);
             if let Some((&x, _)) = each.find(|&at| !is_known(at)) {
                 return Err(x);

@@ -31,8 +31,8 @@ impl<T: Real> Spread<T> {
     }
 
     /// Lists the nodes of a Gauss-Chebyshev rule, each with its share of the load.
-    fn nodes(&self, count: usize) -> impl Iterator<Item = [T; 2]> {
-        let at = move |[x, cos]: [T; 2]| [x, value_at(&self.q, cos) / T::count(count)];
+    fn nodes(&self, [count, terms]: [usize; 2]) -> impl Iterator<Item = [T; 2]> {
+        let at = move |[x, cos]: [T; 2]| [x, value_at(&self.q[..terms], cos) / T::count(count)];
         places(self.on, count).map(at)
     }
 }

@@ -13,7 +13,7 @@
 
 use super::{RegularKernel, SurfaceCompliance};
 use crate::Real;
-use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, Table as Nodes, primitive, value_at, values};
+use crate::numerics::chebyshev::{Table as Nodes, primitive, value_at, values};
 use crate::numerics::dot;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use std::sync::{Arc, OnceLock};
@@ -22,6 +22,9 @@ use std::sync::{Arc, OnceLock};
 /// terms leaves an error of 1e-16.
 const FIRST_ENDS: [f64; 3] = [0.5, 1.0, 2.0];
 const GROWTH: f64 = 1.75;
+
+/// Largest number of terms of a panel.
+const TERMS: usize = 24;
 
 /// Number of values that are summed together.
 const LANES: usize = 8;
@@ -81,8 +84,10 @@ impl<T: Real> Table<T> {
         self.of.excess(wavenumber)
     }
 
-    /// Returns the panel of a difference `x - s`, the place in it from -1 to 1, and the sign of Γ.
-    fn place(&self, difference: T) -> (usize, T, T) {
+    /// Returns the panel of a difference `x - s`, sought first at a known one, the place in it from
+    /// -1 to 1, and the sign of Γ.
+    #[inline(always)]
+    fn place(&self, difference: T, near: usize) -> (usize, T, T) {
         let (mut distance, mut sign) = (difference.abs(), T::one());
         if let Some(period) = self.period {
             distance -= period * (distance / period).floor();
@@ -90,12 +95,18 @@ impl<T: Real> Table<T> {
                 (distance, sign) = (period - distance, -sign);
             }
         }
-        let panel = self.ends.iter().position(|&end| distance <= end);
-        let panel = panel.unwrap_or(self.ends.len() - 1);
-        let [from, to] = self.panel(panel);
+        let [from, to] = self.panel(near);
+        let is_near = distance > from && distance <= to;
+        let known = if is_near { Some(near) } else { self.panel_at(distance) };
+        let panel = known.unwrap_or(self.ends.len() - 1);
+        let [from, to] = if is_near { [from, to] } else { self.panel(panel) };
         // An endless body is as far as the last panel.
         let z = ((distance.min(to) - from) - (to - distance.min(to))) / (to - from);
         (panel, z, if difference < T::zero() { -sign } else { sign })
+    }
+
+    fn panel_at(&self, distance: T) -> Option<usize> {
+        self.ends.iter().position(|&end| distance <= end)
     }
 
     /// Returns the sum of Γ, or of its integral, over loads at some places. Neighbours on one panel
@@ -112,7 +123,7 @@ impl<T: Real> Table<T> {
             *weights = [[T::zero(); LANES]; 2];
         };
         for &[s, load] in loads {
-            let (panel, place, sign) = self.place(x - s);
+            let (panel, place, sign) = self.place(x - s, on);
             if count == LANES || count > 0 && panel != on {
                 flush(on, &z, &mut weights);
                 count = 0;
@@ -135,9 +146,9 @@ impl<T: Real> Table<T> {
     fn row(&self, panel: usize) -> &[Vec<T>; 2] {
         self.rows[panel].get_or_init(|| {
             let [from, to] = self.panel(panel);
-            let nodes = Nodes::of(MAX_SIZE);
+            let nodes = Nodes::of(TERMS);
             let half = T::of(0.5) * (to - from);
-            let mut values: Coeffs<T> = [T::zero(); MAX_SIZE];
+            let mut values = [T::zero(); TERMS];
             let lengths = [self.of.decay(), self.of.longest()];
             wavenumbers(lengths, self.period, [from, to], |omega, weight| {
                 let weight = weight * self.of.excess(omega);
@@ -147,7 +158,7 @@ impl<T: Real> Table<T> {
             });
             let series = nodes.coefficients(&values);
             let largest = series.iter().fold(T::zero(), |most, a| most.max(a.abs()));
-            let counts = |a: &T| a.abs() > T::of(0.25) * T::epsilon() * largest;
+            let counts = |a: &T| a.abs() > T::epsilon() * largest;
             let terms = series.iter().rposition(counts).map_or(1, |last| last + 1);
             let mut integral = primitive(&series[..terms])[..=terms].to_vec();
             integral.iter_mut().for_each(|a| *a *= half);
@@ -161,12 +172,12 @@ impl<T: Real> Table<T> {
 
 impl<T: Real> RegularKernel<T> for Table<T> {
     fn slope(&self, x: T, s: T) -> T {
-        let (panel, z, sign) = self.place(x - s);
+        let (panel, z, sign) = self.place(x - s, 0);
         sign * value_at(&self.row(panel)[0], z)
     }
 
     fn height(&self, x: T, s: T) -> T {
-        let (panel, z, _) = self.place(x - s);
+        let (panel, z, _) = self.place(x - s, 0);
         value_at(&self.row(panel)[1], z)
     }
 
