@@ -237,6 +237,11 @@ fn hull<T: Real>(spreads: &[Spread<T>]) -> Option<Interval<T>> {
     spreads.iter().map(|spread| spread.on).reduce(hull)
 }
 
+/// Returns the ρ of rounding.
+fn rounding<T: Real>() -> T {
+    T::of(LEAST) * T::epsilon()
+}
+
 /// A solve on the bent bodies.
 struct Solve<'b, T: Real> {
     found: ContactState<T>,
@@ -289,6 +294,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 self.less()?;
                 continue;
             }
+            // Each residual is about the square of the one before, times the same factor.
+            let fall = residual / self.before;
+            let next = if fall > T::zero() { residual * fall * fall } else { residual };
+            self.has_converged |= left == 0 && self.part == T::one() && next <= rounding();
             // A check may have found other contacts than the one that was sought.
             self.is_checked = self.has_converged || !self.may_be_one || spreads.len() > 1;
             self.step_to(spreads, residual)?;
@@ -300,7 +309,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     /// below the error of the limits. Next to a kink r is known to fewer digits.
     fn is_least(&self, residual: T, error: Option<T>) -> bool {
         let known = T::of(BELOW) * error.unwrap_or(T::zero());
-        residual <= known.max(T::of(LEAST) * T::epsilon())
+        residual <= known.max(rounding())
             || residual <= T::epsilon().powf(T::of(0.75)) && residual > T::of(STALLED) * self.before
     }
 
