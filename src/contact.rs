@@ -10,7 +10,7 @@ pub use control::Control;
 pub use edge_pressure::EdgePressure;
 
 use crate::error::is_subnormal;
-use crate::gap::{Cost, Gap, Shape};
+use crate::gap::{Cost, Gap, GapId, Shape};
 use crate::kernel::{Formula, Kernel, Layers, RegularKernel, SurfaceCompliance};
 use crate::material::{Elasticity, Foundation, PlaneState};
 use crate::quadrature::{Panels, Quadrature};
@@ -253,6 +253,11 @@ impl<'b, T: Real> Contact<'b, T> {
     pub fn period(mut self, period: T) -> Self {
         self.beside = Beside { period: Some(period), table: OnceLock::new(), ..self.beside };
         self
+    }
+
+    /// Returns the identity of the bodies, and their period.
+    pub(crate) fn bodies(&self) -> (GapId<T>, Option<T>) {
+        (self.gap.id(), self.beside.period)
     }
 
     /// Returns the scene with its bodies repeated, if they have a period.

@@ -10,15 +10,15 @@
 //! last point. The panels ([`quadrature`](crate::quadrature)) need the slope only *near* given
 //! abscissae, and take points close to them: see `sample_near.rs`.
 
-mod changed;
 mod noise;
 mod periodic;
+mod repeated;
 mod resolution;
 mod sample_near;
 mod sampler;
 mod survey;
 
-use changed::Changed;
+use repeated::Repeated;
 pub(crate) use sample_near::{CurveSample, SampleCache, sample_near};
 pub use sampler::Sampler;
 pub(crate) use survey::{Asked, Guides, LowPoint, MAX_NEAR_UNCERTAINTY, Survey, crossing};
@@ -31,6 +31,7 @@ use crate::{
     Body, ContactError, CurvePoint, InputError, ParametricProfile, ProfileError, Real, Side,
     SolveError,
 };
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -52,18 +53,44 @@ pub struct Gap<'b, T: Real> {
     bodies: [Surface<'b, T>; 2],
     inversion: &'b dyn LimitSearch<T>,
     range: [T; 2],
-    /// Number of this gap, different from every other that was made, so that samples of one gap are
-    /// not used for another.
+    /// Number of this gap, different from every other that was made.
     number: u64,
     convex: bool,
     /// Counter-clockwise tilt of body 2, as a slope: added to the slope of the gap, and times x to
     /// its height.
     tilt: T,
+    /// Bend of the bodies, 1/κ, and a number that no other bend has: taken from the gap.
+    bend: Option<(Arc<Bend<'b, T>>, T, u64)>,
     watch: Option<Watch<'b, T>>,
     /// Length of the narrowest feature to be seen, if the user gives one.
     resolution: Option<T>,
     /// Period of both bodies.
     period: Option<T>,
+}
+
+/// Identity of a gap, the same for all clones, whose samples are the same: its number, and the
+/// period and where it begins, if the bodies are repeated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct GapId<T> {
+    number: u64,
+    cut: Option<[T; 2]>,
+}
+
+/// What is added to the gap of the bodies as described: a tilt, and a bend by its number.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Added<T> {
+    tilt: T,
+    pub bend: Option<u64>,
+}
+
+impl<T: Real> Added<T> {
+    pub fn nothing() -> Self {
+        Self { tilt: T::zero(), bend: None }
+    }
+
+    pub fn is(&self, other: &Self) -> bool {
+        same(self.tilt, other.tilt) && self.bend == other.bend
+    }
 }
 
 /// Body, lent by the user or owned. (An owned body holds no references: otherwise a contact would
@@ -72,7 +99,7 @@ pub struct Gap<'b, T: Real> {
 pub(crate) enum Shape<'b, T: Real> {
     Lent(&'b dyn ParametricProfile<T>),
     Owned(Arc<dyn ParametricProfile<T>>),
-    Changed(Arc<Changed<'b, T>>),
+    Repeated(Arc<Repeated<'b, T>>),
 }
 
 impl<T: Real> Shape<'_, T> {
@@ -80,7 +107,7 @@ impl<T: Real> Shape<'_, T> {
         match self {
             Self::Lent(profile) => *profile,
             Self::Owned(profile) => &**profile,
-            Self::Changed(body) => &**body,
+            Self::Repeated(body) => &**body,
         }
     }
 }
@@ -253,8 +280,9 @@ impl<'b, T: Real> Gap<'b, T> {
         if range[0] >= range[1] {
             return Err(InputError::NoCommonRange { lower, upper }.into());
         }
-        let (number, tilt, watch, resolution, period) = (number(), T::zero(), None, None, None);
-        Ok(Self { bodies, inversion, range, number, convex, tilt, watch, resolution, period })
+        let (number, tilt, bend) = (number(), T::zero(), None);
+        let (watch, resolution, period) = (None, None, None);
+        Ok(Self { bodies, inversion, range, number, convex, tilt, bend, watch, resolution, period })
     }
 
     /// Returns the standard deviation that noise of measurements leaves in a sum of slopes of the
@@ -291,47 +319,59 @@ impl<'b, T: Real> Gap<'b, T> {
     }
 
     /// Returns the same bodies with this tilt; samples are valid for both.
-    pub(crate) fn tilted(&self, tilt: T) -> Self {
-        Self { tilt, ..self.clone() }
+    pub(crate) fn tilted(&self, tilt: T) -> Cow<'_, Self> {
+        match same(tilt, self.tilt) {
+            true => Cow::Borrowed(self),
+            false => Cow::Owned(Self { tilt, ..self.clone() }),
+        }
     }
 
-    /// Returns the bodies with the slope of the gap lowered by a bend over κ.
-    pub(crate) fn bent(&self, bend: &Arc<Bend<'b, T>>, kappa: T) -> Result<Self, ContactError<T>> {
-        let [mut lower, mut upper] = [0, 1].map(|i| self.bodies[i].shape.clone());
-        // An endless flat stays one: it costs nothing.
-        let (body, shape, scale) = if self.bodies[Body::Upper as usize].is_endless() {
-            (Body::Lower, &mut lower, kappa.recip())
-        } else {
-            (Body::Upper, &mut upper, -kappa.recip())
-        };
-        let bent = Changed::bent(shape, self, bend, scale);
-        let bent = bent.map_err(|source| InputError::Profile { body, source })?;
-        *shape = Shape::Changed(Arc::new(bent));
-        let Self { inversion, range, tilt, watch, resolution, period, .. } = *self;
-        let new = Self::new(lower, upper, inversion)?;
+    /// Returns the same bodies with the slope of the gap lowered by a bend over κ; samples are
+    /// valid for both.
+    pub(crate) fn bent(&self, bend: Bend<'b, T>, kappa: T) -> Self {
         // Convexity that the bodies declare says nothing of the bent ones.
-        Ok(Self { range, convex: false, tilt, watch, resolution, period, ..new })
+        let bend = Some((Arc::new(bend), kappa.recip(), number()));
+        Self { bend, convex: false, ..self.clone() }
     }
 
     /// Returns the bend of the bodies, if they are bent.
     pub(crate) fn bend(&self) -> Option<&Bend<'b, T>> {
-        self.changed_bodies().find_map(Changed::bend)
+        self.bend.as_ref().map(|(bend, ..)| &**bend)
     }
 
     /// Returns the bodies before they are bent.
-    pub(crate) fn before_bend(&self) -> &Self {
-        self.changed_bodies().find_map(Changed::before).unwrap_or(self)
+    pub(crate) fn before_bend(&self) -> Self {
+        Self { bend: None, ..self.clone() }
     }
 
-    fn changed_bodies(&self) -> impl Iterator<Item = &Changed<'b, T>> {
-        self.bodies.iter().filter_map(|body| match &body.shape {
-            Shape::Changed(body) => Some(&**body),
-            _ => None,
-        })
+    /// Returns the bodies as they are described, neither turned nor bent.
+    pub(crate) fn as_described(&self) -> Self {
+        Self { tilt: T::zero(), ..self.before_bend() }
     }
 
     pub(crate) fn tilt(&self) -> T {
         self.tilt
+    }
+
+    /// Returns what is added to the gap of the bodies as described.
+    pub(crate) fn added(&self) -> Added<T> {
+        Added { tilt: self.tilt, bend: self.bend.as_ref().map(|(.., number)| *number) }
+    }
+
+    /// Returns what a bend adds to the slope (0) or to the height (1) of the gap at x.
+    pub(crate) fn bend_at<const N: usize>(&self, which: [usize; N], x: T) -> [T; N] {
+        let Some((bend, share, _)) = &self.bend else { return [T::zero(); N] };
+        bend.values(which, x).map(|of| -*share * of)
+    }
+
+    /// Returns the slope that is added to that of the bodies as described.
+    pub(crate) fn added_slope(&self, x: T) -> T {
+        self.tilt + self.bend_at([0], x)[0]
+    }
+
+    /// Returns the height of the gap at x, given that of the bodies as described.
+    pub(crate) fn with_added(&self, x: T, height: T) -> T {
+        self.turned(x, height + self.bend_at([1], x)[0])
     }
 
     /// Returns the height of the gap at x after the tilt, given the height before. (A body may have
@@ -483,13 +523,14 @@ impl<'b, T: Real> Gap<'b, T> {
         }
     }
 
-    /// Returns a number that no other gap has, unless it is a clone.
-    pub(crate) fn number(&self) -> u64 {
-        self.number
+    /// Returns the identity of the bodies as described.
+    pub(crate) fn id(&self) -> GapId<T> {
+        let cut = self.period.map(|period| [period, self.range[0]]);
+        GapId { number: self.number, cut }
     }
 }
 
-/// Returns a number that no other gap has.
+/// Returns a number that no other gap, or bend, has.
 fn number() -> u64 {
     static MADE: AtomicU64 = AtomicU64::new(1);
     MADE.fetch_add(1, Ordering::Relaxed)

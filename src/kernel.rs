@@ -26,7 +26,7 @@ pub(crate) use bend::Bend;
 pub(crate) use correction::{Correction, Given, Kept, pressed, punch};
 pub(crate) use layers::Layers;
 pub(crate) use periodic::Periodic;
-pub(crate) use spread::{Loads, Spread};
+pub(crate) use spread::{Spread, loads};
 pub(crate) use table::{Table, wavenumbers};
 
 use crate::{Interval, Real};
@@ -147,7 +147,7 @@ impl<T: Real> Kernel<'_, T> {
     }
 
     /// Returns sums of K(x, s) (0) or of its integral by x (1) over loads at places s.
-    fn sums<const N: usize>(&self, which: [usize; N], x: T, loads: &[[T; 2]]) -> [T; N] {
+    pub fn sums<const N: usize>(&self, which: [usize; N], x: T, loads: &[[T; 2]]) -> [T; N] {
         let table = self.table.as_ref();
         let mut sums = table.map_or([T::zero(); N], |table| table.sums(which, x, loads));
         for kernel in self.formulas() {
@@ -166,13 +166,10 @@ impl<T: Real> Kernel<'_, T> {
 /// c and a compliance at its wavenumber: of a pressure that is corrected, of r, and the most of any
 /// pressure that reach r.
 ///
-/// r has singularities c above the ends of the interval, on an ellipse around it with the sum ρ of
-/// the half-axes, in half-widths: its series converges like `ρ⁻ⁿ`. As they are no simple poles, it
-/// takes some more for rounding (by trial, up to 2L/c = 90). So few terms as the first number leave
-/// a correction of 1e-4 to 1e-6 (found by trial, too). On a thin layer that is a share of what the
-/// kernel takes away, and more are needed for the same share of the compliance that is left: the
-/// error falls like `exp(-4 c n/2L)`. Coefficients beyond the most meet only wavenumbers at which
-/// K - 1 is below rounding, or terms of K that are.
+/// So few terms as the first number leave a correction of 1e-4 to 1e-6 (found by trial). On a thin
+/// layer that is a share of what the kernel takes away, and more are needed for the same share of
+/// the compliance that is left: the error falls like `exp(-4 c n/2L)`. Coefficients beyond the most
+/// meet only wavenumbers at which K - 1 is below rounding, or terms of K that are.
 pub(crate) fn terms<T: Real>(distance: T, compliance: T, on: Interval<T>) -> [usize; 3] {
     let ratio = ratio(distance, on);
     let sum = |first: f64, by_root: f64, by_ratio: f64| {
@@ -180,20 +177,24 @@ pub(crate) fn terms<T: Real>(distance: T, compliance: T, on: Interval<T>) -> [us
     };
     let softness: f64 = compliance.component(0).to_subset_unchecked();
     let corrected = sum(8.0, 4.0, 2.2 + 0.25 * -softness.min(1.0).ln());
-    let of_r = at_least(T::of(6.0) - T::epsilon().ln() / ellipse(ratio).ln());
-    // A formula without singularities is no constant.
-    let of_r = of_r.max(LEAST_TERMS);
-    [corrected, of_r.max(corrected), sum(30.0, 0.0, 10.0).min(at_least(degree(ratio)))]
+    let most = sum(30.0, 0.0, 10.0).min(at_least(degree(ratio)));
+    [corrected, terms_of_bend(distance, on).max(corrected), most]
 }
 
-/// Returns the sum of the half-axes of the ellipse with its foci at ±1 through `1 + i 2/ratio`.
-fn ellipse<T: Real>(ratio: T) -> T {
-    let (one, two, high) = (T::one(), T::of(2.0), T::of(2.0) / ratio.max(T::epsilon()));
-    // The root of z² - 1 = w² (2i/w - 1) for a height w.
-    let size = (high * high + T::of(4.0)).sqrt();
+/// Returns the number of terms of r on an interval, with the nearest singularity of the kernel at a
+/// distance c.
+///
+/// r has singularities c above the ends of the interval, on an ellipse around it with the sum ρ of
+/// the half-axes, in half-widths: its series converges like `ρ⁻ⁿ`. As they are no simple poles, it
+/// takes six more for rounding (by trial, up to 2L/c = 90).
+fn terms_of_bend<T: Real>(distance: T, on: Interval<T>) -> usize {
+    let (two, high) = (T::of(2.0), T::of(2.0) / ratio(distance, on).max(T::epsilon()));
+    // The root of z² - 1 for z = 1 + iw is that of w² (2i/w - 1).
+    let size = (high * high + two + two).sqrt();
     let along = (two * high / (size + high)).sqrt();
     let above = (T::of(0.5) * high * (size + high)).sqrt();
-    (one + along).hypot(high + above)
+    let ellipse = (T::one() + along).hypot(high + above);
+    at_least(T::of(6.0) - T::epsilon().ln() / ellipse.ln())
 }
 
 /// Returns the degree of the polynomial in s that K(x, s) is, to rounding, for x in the contact.
@@ -217,9 +218,6 @@ fn ratio<T: Real>(distance: T, on: Interval<T>) -> T {
 pub(crate) fn at_least<T: Real>(value: T) -> usize {
     (0..MAX_TERMS).find(|&n| T::count(n) >= value).unwrap_or(MAX_TERMS)
 }
-
-/// Least number of terms of r.
-const LEAST_TERMS: usize = 14;
 
 /// Least distance of the next period that is taken, by the period: on the way to a solution.
 const LEAST_DISTANCE: f64 = 2e-4;

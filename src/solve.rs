@@ -123,7 +123,7 @@ impl<'b, T: Real> Contact<'b, T> {
         report: Report,
         bent: Option<Box<Gap<'b, T>>>,
     ) -> Solution<'b, T> {
-        let gap = bent.as_deref().unwrap_or(&self.gap).tilted(found.tilt);
+        let gap = bent.as_deref().unwrap_or(&self.gap).tilted(found.tilt).into_owned();
         let kappa = self.kappa;
         let elasticity = self.elasticity().ok().flatten();
         Solution { gap, integrator, kappa, elasticity, found, cost, report }

@@ -1,7 +1,7 @@
 //! Repeated solves: the next load, the next time step.
 
 use crate::contact::Control;
-use crate::gap::{Cost, Sampler};
+use crate::gap::{Cost, GapId, Sampler};
 use crate::quadrature::Engine;
 use crate::solution::{PartialSlip, Shear, Solution};
 use crate::solve::{Work, Workspace, find, first_touch};
@@ -47,7 +47,7 @@ pub struct Solver<T: Real> {
     integrator: Option<Arc<Engine<T>>>,
     workspace: Workspace<T>,
     /// Number of the gap last solved; its contacts are in the workspace.
-    last: Option<u64>,
+    last: Option<(GapId<T>, Option<T>)>,
 }
 
 impl<T: Real> Solver<T> {
@@ -120,15 +120,15 @@ impl<T: Real> Solver<T> {
         };
         // A kept solution keeps its integrator.
         let own = Arc::make_mut(integrator);
-        let number = contact.gap.number();
-        own.reset(self.last.take() == Some(number));
+        let bodies = contact.bodies();
+        own.reset(self.last.take() == Some(bodies));
         let mut cost = Cost::default();
         let mut work = Work { integrator: own, workspace: &mut self.workspace, cost: &mut cost };
         let found = find(contact, control, &mut work);
         *spent += cost;
         let (found, bent) = found?;
         self.workspace.keep(integrator.contacts(&found.interval));
-        self.last = Some(number);
+        self.last = Some(bodies);
         Ok(contact.solution(integrator.clone(), found, *spent, self.workspace.report, bent))
     }
 }

@@ -3,7 +3,7 @@
 //! A body described over one period is repeated, and the gap has the range of one period from its
 //! cut, a place where the bodies are far apart.
 
-use super::changed::Changed;
+use super::repeated::Repeated;
 use super::{Gap, Sampler, Shape};
 use crate::{Body, ContactError, Cost, InputError, Real};
 use std::sync::Arc;
@@ -43,13 +43,13 @@ impl<T: Real> Gap<'_, T> {
             let is_exact = (left + first - start).abs() <= T::of(SAME) * period;
             let copies = if is_exact { 2 } else { 3 };
             let shifts: Vec<T> = (0..copies).map(|i| first + period * T::count(i)).collect();
-            let body = Changed::repeated(&surface.shape, &shifts);
-            body.map(|body| Shape::Changed(Arc::new(body)))
+            let body = Repeated::new(&surface.shape, &shifts);
+            body.map(|body| Shape::Repeated(Arc::new(body)))
         };
         let repeat = |body| repeat(body).map_err(|source| InputError::Profile { body, source });
         let new = Self::new(repeat(Body::Lower)?, repeat(Body::Upper)?, self.inversion)?;
-        let Self { watch, resolution, .. } = *self;
-        let new = Self { watch, resolution, convex: false, period: Some(period), ..new };
+        let Self { watch, resolution, number, .. } = *self;
+        let new = Self { watch, resolution, number, convex: false, period: Some(period), ..new };
         let gap = new.cut_at(start);
         let mut sampler = Sampler::default();
         let mut samples = Vec::with_capacity(CUT_PLACES);
@@ -128,7 +128,7 @@ impl<T: Real> Gap<'_, T> {
         let first = first.map(|surface| surface.extent()[0]);
         let first = first.reduce(T::max).unwrap_or(x);
         let from = x - period * ((x - first) / period).floor();
-        Self { range: [from, from + period], number: super::number(), ..self.clone() }
+        Self { range: [from, from + period], ..self.clone() }
     }
 
     /// Returns the same bodies over the period that begins where they are furthest apart between

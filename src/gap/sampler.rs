@@ -60,11 +60,11 @@ impl<T: Real> Sampler<T> {
         x: T,
         side: Side,
     ) -> Result<T, ContactError<T>> {
-        Ok(self.slope_untilted(gap, x, side)? + gap.tilt())
+        Ok(self.slope_as_described(gap, x, side)? + gap.added_slope(x))
     }
 
-    /// Returns the slope before the bodies are turned.
-    pub(crate) fn slope_untilted(
+    /// Returns the slope of the bodies as described.
+    pub(crate) fn slope_as_described(
         &mut self,
         gap: &Gap<'_, T>,
         x: T,
@@ -87,16 +87,20 @@ impl<T: Real> Sampler<T> {
             // Level bodies are not looked at for their height.
             _ => T::zero(),
         });
-        upper - lower + gap.tilt()
+        upper - lower + gap.added_slope(x)
     }
 
     /// Returns the height of the gap `Y₂ - Y₁` at `x`, on both bodies, before they are loaded.
     pub(crate) fn height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
-        Ok(gap.turned(x, self.height_untilted(gap, x)?))
+        Ok(gap.with_added(x, self.height_as_described(gap, x)?))
     }
 
-    /// Returns the height before the bodies are turned.
-    pub(crate) fn height_untilted(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
+    /// Returns the height of the bodies as described.
+    pub(crate) fn height_as_described(
+        &mut self,
+        gap: &Gap<'_, T>,
+        x: T,
+    ) -> Result<T, ContactError<T>> {
         let lower = self.body_height(gap, Body::Lower, x)?;
         let upper = self.body_height(gap, Body::Upper, x)?;
         self.highest = self.highest.max(lower.abs()).max(upper.abs());

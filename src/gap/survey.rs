@@ -52,8 +52,11 @@ pub(crate) struct Survey<T> {
     bodies: [Body<T>; 2],
     /// Range of x that both bodies cover.
     range: [T; 2],
-    /// Gap at all points of either body, by rising x.
+    /// Gap at all points of either body and at places of its bend, by rising x: of bodies that are
+    /// bent, but not turned.
     nodes: Vec<Node<T>>,
+    /// Number of the bend, if the bodies are bent.
+    bend: Option<u64>,
     /// Nodes before panels were refined last.
     before: Vec<Node<T>>,
     /// Buffer for the rates at which slopes rise between two points.
@@ -139,6 +142,7 @@ impl<T: Real> Survey<T> {
             bodies: [Body::new(), Body::new()],
             range: [zero; 2],
             nodes: Vec::new(),
+            bend: None,
             before: Vec::new(),
             rates: Vec::new(),
             lowest: zero,
@@ -179,7 +183,8 @@ impl<T: Real> Survey<T> {
             found.map_err(|source| InputError::Profile { body: which, source })?;
         }
         self.spent = cost.heights - before;
-        self.join();
+        self.bend = gap.added().bend;
+        self.join(gap);
         // Bodies that move allocate nothing.
         if is_again {
             for spans in &mut self.marked {
@@ -191,6 +196,19 @@ impl<T: Real> Survey<T> {
             self.stretches.reserve(self.nodes.capacity());
         }
         Ok(())
+    }
+
+    /// Tells whether the bodies are bent as the gap is.
+    pub fn is_bent_as(&self, gap: &Gap<'_, T>) -> bool {
+        self.bend == gap.added().bend
+    }
+
+    /// Bends the bodies, which costs no evaluation.
+    pub fn bend(&mut self, gap: &Gap<'_, T>) {
+        self.bend = gap.added().bend;
+        (self.known, self.is_one, self.resolved) = (None, false, None);
+        self.bodies[0].fresh.push(self.range);
+        self.join(gap);
     }
 
     /// Refines both bodies until the uncertainty at all places that the load may touch is at most a
@@ -210,7 +228,7 @@ impl<T: Real> Survey<T> {
         }
         let before = cost.heights;
         for _ in 0..MAX_ROUNDS {
-            let load = self.load_of(asked);
+            let load = self.load_of(gap, asked);
             let presses = load > T::zero();
             if !presses {
                 break;
@@ -243,7 +261,7 @@ impl<T: Real> Survey<T> {
                 break;
             }
         }
-        self.lowest = self.polished(self.lowest);
+        self.lowest = self.polished(gap, self.lowest);
         self.known = Some((asked, share, gap.tilt()));
         Ok(())
     }
@@ -274,7 +292,7 @@ impl<T: Real> Survey<T> {
     ) -> Result<bool, ContactError<T>> {
         let changes = self.refine_bodies(gap, wanted, tolerance, cost)?;
         if changes {
-            self.join();
+            self.join(gap);
         }
         Ok(changes)
     }
@@ -312,7 +330,7 @@ impl<T: Real> Survey<T> {
 
     /// Lists the gap at all points of either body within their common range, and at the ends of
     /// this range. Nodes where no panel is new are kept.
-    fn join(&mut self) {
+    fn join(&mut self, gap: &Gap<'_, T>) {
         std::mem::swap(&mut self.nodes, &mut self.before);
         let (nodes, before) = (&mut self.nodes, &self.before);
         for body in &mut self.bodies {
@@ -323,6 +341,8 @@ impl<T: Real> Survey<T> {
         nodes.reserve(2 + self.bodies.iter().map(|body| body.points.capacity()).sum::<usize>());
         let [first, last] = self.range;
         let (mut next, mut fresh, mut known) = ([0; 2], [0; 2], 0);
+        let bends = gap.bend().into_iter().flat_map(|bend| bend.places(self.range));
+        let mut bends = bends.peekable();
         let mut x = first;
         loop {
             let mut is_fresh = false;
@@ -338,15 +358,27 @@ impl<T: Real> Survey<T> {
             let same = before.get(known).filter(|node| !is_fresh && node.x == x);
             nodes.push(match same {
                 Some(node) => Node { is_open: false, is_void: false, ..*node },
-                None => node([0, 1].map(|i| at(&self.bodies[i], x, own[i])), x),
+                None => {
+                    node([0, 1].map(|i| at(&self.bodies[i], x, own[i])), x, gap.bend_at([0, 1], x))
+                }
             });
             if x >= last {
                 break;
             }
             let beyond = [0, 1].map(|i| self.bodies[i].points.get(next[i]).map_or(last, |at| at.x));
-            x = beyond[0].min(beyond[1]).min(last);
+            while bends.next_if(|&at| at <= x).is_some() {}
+            x = beyond[0].min(beyond[1]).min(bends.peek().map_or(last, |&at| at.min(last)));
         }
-        let mut panels = [[0; 2]; 2];
+        self.measure();
+        convex_stretches(&mut self.nodes, &mut self.rates);
+        self.lowest = self.find_lowest(gap);
+        self.bodies.iter_mut().for_each(|body| body.fresh.clear());
+        (self.stretch, self.reach) = (None, None);
+    }
+
+    /// Sets what is known of the gap between each node and the next.
+    fn measure(&mut self) {
+        let (nodes, [first, last], mut panels) = (&mut self.nodes, self.range, [[0; 2]; 2]);
         for i in 1..nodes.len() {
             let [from, to] = [nodes[i - 1].x, nodes[i].x];
             let node = &mut nodes[i - 1];
@@ -366,10 +398,6 @@ impl<T: Real> Survey<T> {
                 node.after += most;
             }
         }
-        convex_stretches(&mut self.nodes, &mut self.rates);
-        self.lowest = self.find_lowest(&self.nodes);
-        self.bodies.iter_mut().for_each(|body| body.fresh.clear());
-        (self.stretch, self.reach) = (None, None);
     }
 }
 
@@ -380,13 +408,14 @@ fn advance<I>(index: &mut usize, items: &[I], is_before: impl Fn(&I) -> bool) {
     }
 }
 
-/// Makes a node of both bodies at x, on its left and on its right.
-fn node<T: Real>([lower, upper]: [[BodyPoint<T>; 2]; 2], x: T) -> Node<T> {
+/// Makes a node of both bodies at x, on its left and on its right, with the slope and the height
+/// that a bend adds.
+fn node<T: Real>([lower, upper]: [[BodyPoint<T>; 2]; 2], x: T, bend: [T; 2]) -> Node<T> {
     Node {
         x,
-        height: upper[1].y - lower[1].y,
+        height: upper[1].y - lower[1].y + bend[1],
         size: upper[1].y.abs().max(lower[1].y.abs()),
-        slopes: [0, 1].map(|side| upper[side].slope - lower[side].slope),
+        slopes: [0, 1].map(|side| upper[side].slope - lower[side].slope + bend[0]),
         doubts: [lower, upper].map(|[left, right]| left.doubt.max(right.doubt)),
         after: T::zero(),
         panel: T::one() / T::zero(),

@@ -4,9 +4,10 @@
 //! for; outside them they are summed directly.
 
 use super::Kernel;
-use super::spread::{Loads, Spread, places, series};
+use super::spread::{Spread, loads, places, series};
 use crate::numerics::chebyshev::{MAX_SIZE, value_at};
-use crate::{Ends, Interval, Real, Side};
+use crate::{Interval, Real};
+use num_traits::ToPrimitive;
 use std::sync::OnceLock;
 
 /// Width of the panels over several contacts, in units of the distance of the nearest singularity:
@@ -17,22 +18,22 @@ const WIDTH: f64 = 1.4;
 /// next step, and the samples beside them, lie there.
 const MARGIN: f64 = 0.25;
 
+/// Distance of the places between which the bend is about a cubic, by that of the nearest
+/// singularity, and by that of the contacts.
+const BETWEEN: [f64; 2] = [0.25, 0.5];
+
 /// Bend by the pressures in some intervals.
 pub(crate) struct Bend<'b, T: Real> {
     kernel: Kernel<'b, T>,
-    loads: Loads<T>,
+    /// Pressures as loads at places.
+    loads: Vec<[T; 2]>,
     /// Interval of the panels.
     on: Interval<T>,
     rows: Vec<OnceLock<Row<T>>>,
-    /// Steps of the height from direct sums to the panels, at their ends.
-    steps: Ends<OnceLock<T>>,
 }
 
-/// r and its integral on a panel.
-struct Row<T> {
-    slope: Vec<T>,
-    height: Vec<T>,
-}
+/// Series of r and of its integral on a panel.
+type Row<T> = [Vec<T>; 2];
 
 impl<'b, T: Real> Bend<'b, T> {
     /// Creates the bend by these pressures, at least one.
@@ -52,9 +53,8 @@ impl<'b, T: Real> Bend<'b, T> {
         let is_short = spreads.len() == 1 && period.is_none();
         let count = if is_short { 1 } else { super::at_least(cells).max(1) };
         let rows = (0..count).map(|_| OnceLock::new()).collect();
-        let loads = Loads::of(kernel.distance(), spreads);
-        let steps = Ends::from_fn(|_| OnceLock::new());
-        Self { kernel: kernel.clone(), loads, on, rows, steps }
+        let loads = loads(kernel.distance(), spreads);
+        Self { kernel: kernel.clone(), loads, on, rows }
     }
 
     /// Returns the kernel.
@@ -70,41 +70,43 @@ impl<'b, T: Real> Bend<'b, T> {
         heights.fold(T::zero(), |sum, height| sum + height) / T::count(count)
     }
 
+    /// Returns the number of terms of a series of r on an interval.
+    pub fn terms(&self, on: Interval<T>) -> usize {
+        super::terms_of_bend(self.kernel.distance(), on)
+    }
+
+    /// Lists places over a range, by rising x, between which the bend is about a cubic.
+    pub fn places(&self, [from, to]: [T; 2]) -> impl Iterator<Item = T> + use<'_, T> {
+        let on = self.on;
+        // Contacts far too wide on the way are no reason for more places than there is room.
+        let width = on.right - on.left;
+        let least = T::of(BETWEEN[0]) * self.kernel.distance().min(T::of(0.5) * width);
+        let least = least.max(width / T::count(super::MAX_TERMS));
+        let width = move |x: T| least.max(T::of(BETWEEN[1]) * (on.left - x).max(x - on.right));
+        // Outward from the panels.
+        let left = std::iter::successors(Some(on.left), move |&x| Some(x - width(x)));
+        let mut left: Vec<T> = left.take_while(|&x| x > from).collect();
+        left.reverse();
+        let right = std::iter::successors(Some(on.left + least), move |&x| Some(x + width(x)));
+        left.into_iter().chain(right.take_while(move |&x| x < to)).filter(move |&x| x > from)
+    }
+
     /// Returns r at x.
     pub fn slope(&self, x: T) -> T {
-        match self.row(x) {
-            Some((row, z)) => value_at(&row.slope, z),
-            None => self.loads.slope(&self.kernel, x),
-        }
+        self.values([0], x)[0]
     }
 
     /// Returns `∫ r dx` at x, up to a constant.
     pub fn height(&self, x: T) -> T {
-        match self.row(x) {
-            Some((row, z)) => value_at(&row.height, z),
-            None => self.loads.height(&self.kernel, x) + self.step(x),
-        }
+        self.values([1], x)[0]
     }
 
-    /// Returns r and `∫ r dx` at x.
-    pub fn both(&self, x: T) -> [T; 2] {
+    /// Returns r (0) or `∫ r dx` (1) at x.
+    pub fn values<const N: usize>(&self, which: [usize; N], x: T) -> [T; N] {
         match self.row(x) {
-            Some((row, z)) => [value_at(&row.slope, z), value_at(&row.height, z)],
-            None => {
-                let [slope, height] = self.loads.both(&self.kernel, x);
-                [slope, height + self.step(x)]
-            }
+            Some((row, z)) => which.map(|of| value_at(&row[of], z)),
+            None => self.kernel.sums(which, x, &self.loads),
         }
-    }
-
-    /// Returns what the height outside the panels lacks, so that it has no step at their end.
-    fn step(&self, x: T) -> T {
-        let side = if x < self.on.left { Side::Left } else { Side::Right };
-        *self.steps[side].get_or_init(|| {
-            let end = self.on[side];
-            let known = self.row(end).map(|(row, z)| value_at(&row.height, z));
-            known.map_or(T::zero(), |known| known - self.loads.height(&self.kernel, end))
-        })
     }
 
     /// Returns the panel that contains x, and the place in it.
@@ -115,12 +117,10 @@ impl<'b, T: Real> Bend<'b, T> {
         }
         let count = self.rows.len();
         let width = (right - left) / T::count(count);
-        let mut i = 0;
-        while i + 1 < count && x > left + width * T::count(i + 1) {
-            i += 1;
-        }
-        let on =
-            Interval { left: left + width * T::count(i), right: left + width * T::count(i + 1) };
+        let at: f64 = ((x - left) / width).component(0).to_subset_unchecked();
+        let i = at.to_usize().unwrap_or(0).min(count - 1);
+        let left = left + width * T::count(i);
+        let on = Interval { left, right: left + width };
         let row = self.rows[i].get_or_init(|| self.made(on));
         Some((row, (x - on.centre()) / on.half_width()))
     }
@@ -128,7 +128,7 @@ impl<'b, T: Real> Bend<'b, T> {
     fn made(&self, on: Interval<T>) -> Row<T> {
         let terms = if self.rows.len() == 1 { self.kernel.terms(on)[1] } else { MAX_SIZE };
         let values: Vec<T> =
-            places(on, terms).map(|[x, _]| self.loads.slope(&self.kernel, x)).collect();
+            places(on, terms).map(|[x, _]| self.kernel.sums([0], x, &self.loads)[0]).collect();
         let mut slope = series(&values);
         let largest = slope.iter().fold(T::zero(), |most, a| most.max(a.abs()));
         let counts = |a: &T| a.abs() > T::of(0.125) * T::epsilon() * largest;
@@ -138,8 +138,8 @@ impl<'b, T: Real> Bend<'b, T> {
         let term = |k: usize| on.half_width() * (of(k - 1) - of(k + 1)) / T::count(2 * k);
         let terms = (1..=slope.len()).map(term);
         let mut height: Vec<T> = std::iter::once(T::zero()).chain(terms).collect();
-        let middle = self.loads.height(&self.kernel, on.centre());
+        let [middle] = self.kernel.sums([1], on.centre(), &self.loads);
         height[0] = middle - value_at(&height, T::zero());
-        Row { slope, height }
+        [slope, height]
     }
 }

@@ -20,7 +20,7 @@
 
 use super::Kernel;
 use super::bend::Bend;
-use super::spread::{Loads, Nodes, Spread};
+use super::spread::{Nodes, Spread, loads};
 use crate::numerics::LinearSystem;
 use crate::{Interval, Real};
 
@@ -54,19 +54,19 @@ impl<T: Real> Correction<T> {
         mut spreads: Vec<Spread<T>>,
         kept: Kept<T>,
     ) -> Result<Option<Self>, T> {
-        let loads = Loads::of(kernel.distance(), &spreads);
+        let loads = loads(kernel.distance(), &spreads);
+        let sum = |of: usize, x: T| kernel.sums([of], x, &loads)[0];
         let (mut places, mut largest, mut off) = (Vec::new(), T::zero(), T::zero());
         for spread in &spreads {
             let on = spread.on;
             let mut place = Place::new(on, kernel.terms(on)[0]);
-            let new: Vec<T> = place.between.iter().map(|&x| loads.slope(kernel, x)).collect();
+            let new: Vec<T> = place.between.iter().map(|&x| sum(0, x)).collect();
             let old = |x: T| bend.map_or(T::zero(), |bend| bend.slope(x));
             let rho = new.iter().zip(&place.between).map(|(&new, &x)| new - old(x));
             place.rho = rho.collect();
             // A comparison loses NaN, which a formula may have in its integral alone.
             let is_known = |(&x, &rho): (&T, &T)| {
-                rho.is_finite()
-                    && (kernel.formula.is_none() || loads.height(kernel, x).is_finite())
+                rho.is_finite() && (kernel.formula.is_none() || sum(1, x).is_finite())
             };
             let mut each = place.between.iter().zip(&place.rho);
             if let Some((&x, _)) = each.find(|&at| !is_known(at)) {
@@ -82,8 +82,8 @@ impl<T: Real> Correction<T> {
         let residual = if largest > T::zero() { off / largest } else { off };
         let system = System { kernel, places, kept };
         let rises = system.gaps().map(|ends| {
-            let [from, to] = ends
-                .map(|x| loads.height(kernel, x) - bend.map_or(T::zero(), |bend| bend.height(x)));
+            let [from, to] =
+                ends.map(|x| sum(1, x) - bend.map_or(T::zero(), |bend| bend.height(x)));
             to - from
         });
         let Some(change) = system.solve(rises.collect(), &[T::zero()]) else { return Ok(None) };

@@ -1,6 +1,5 @@
 //! Pressures by their coefficients.
 
-use super::Kernel;
 use crate::numerics::chebyshev::value_at;
 use crate::numerics::dot;
 use crate::{Ends, Interval, Real};
@@ -106,32 +105,8 @@ impl<T: Real> Nodes<T> {
     }
 }
 
-/// Pressures as loads at nodes.
-pub(crate) struct Loads<T> {
-    /// Places and their loads.
-    pub nodes: Vec<[T; 2]>,
-}
-
-impl<T: Real> Loads<T> {
-    /// Returns the loads for a kernel with its nearest singularity at a distance.
-    pub fn of(distance: T, spreads: &[Spread<T>]) -> Self {
-        let nodes =
-            |spread: &Spread<T>| spread.nodes(super::nodes(distance, spread)).collect::<Vec<_>>();
-        Self { nodes: spreads.iter().flat_map(nodes).collect() }
-    }
-
-    /// Returns r at x.
-    pub fn slope(&self, kernel: &Kernel<'_, T>, x: T) -> T {
-        kernel.sums([0], x, &self.nodes)[0]
-    }
-
-    /// Returns `∫ r dx` at x, up to a constant.
-    pub fn height(&self, kernel: &Kernel<'_, T>, x: T) -> T {
-        kernel.sums([1], x, &self.nodes)[0]
-    }
-
-    /// Returns both.
-    pub fn both(&self, kernel: &Kernel<'_, T>, x: T) -> [T; 2] {
-        kernel.sums([0, 1], x, &self.nodes)
-    }
+/// Returns pressures as loads at nodes, each with its place, for a kernel with its nearest
+/// singularity at a distance.
+pub(crate) fn loads<T: Real>(distance: T, spreads: &[Spread<T>]) -> Vec<[T; 2]> {
+    spreads.iter().flat_map(|spread| spread.nodes(super::nodes(distance, spread))).collect()
 }

@@ -24,7 +24,7 @@ const FIRST_ENDS: [f64; 3] = [0.5, 1.0, 2.0];
 const GROWTH: f64 = 1.75;
 
 /// Largest number of terms of a panel.
-const TERMS: usize = 24;
+const PANEL_TERMS: usize = 24;
 
 /// Number of values that are summed together.
 const LANES: usize = 8;
@@ -50,7 +50,8 @@ const BEYOND: f64 = 6.5;
 pub(crate) struct Table<T> {
     of: Arc<dyn SurfaceCompliance<T>>,
     period: Option<T>,
-    ends: Vec<T>,
+    /// Distances on each panel.
+    spans: Vec<[T; 2]>,
     rows: Vec<OnceLock<[Vec<T>; 2]>>,
 }
 
@@ -76,7 +77,9 @@ impl<T: Real> Table<T> {
             }
         });
         let rows = ends.iter().map(|_| OnceLock::new()).collect();
-        fault.map_or(Ok(Self { of, period, ends, rows }), Err)
+        let span = |from: &mut T, to: T| Some([std::mem::replace(from, to), to]);
+        let spans = ends.into_iter().scan(T::zero(), span).collect();
+        fault.map_or(Ok(Self { of, period, spans, rows }), Err)
     }
 
     /// Returns K(ω) - 1.
@@ -95,18 +98,15 @@ impl<T: Real> Table<T> {
                 (distance, sign) = (period - distance, -sign);
             }
         }
-        let [from, to] = self.panel(near);
+        let [from, to] = self.spans[near];
         let is_near = distance > from && distance <= to;
-        let known = if is_near { Some(near) } else { self.panel_at(distance) };
-        let panel = known.unwrap_or(self.ends.len() - 1);
-        let [from, to] = if is_near { [from, to] } else { self.panel(panel) };
+        let last = self.spans.len() - 1;
+        let sought = || self.spans.iter().position(|span| distance <= span[1]).unwrap_or(last);
+        let panel = if is_near { near } else { sought() };
+        let [from, to] = self.spans[panel];
         // An endless body is as far as the last panel.
         let z = ((distance.min(to) - from) - (to - distance.min(to))) / (to - from);
         (panel, z, if difference < T::zero() { -sign } else { sign })
-    }
-
-    fn panel_at(&self, distance: T) -> Option<usize> {
-        self.ends.iter().position(|&end| distance <= end)
     }
 
     /// Returns the sum of Γ, or of its integral, over loads at some places. Neighbours on one panel
@@ -139,16 +139,12 @@ impl<T: Real> Table<T> {
         totals
     }
 
-    fn panel(&self, panel: usize) -> [T; 2] {
-        [panel.checked_sub(1).map_or(T::zero(), |before| self.ends[before]), self.ends[panel]]
-    }
-
     fn row(&self, panel: usize) -> &[Vec<T>; 2] {
         self.rows[panel].get_or_init(|| {
-            let [from, to] = self.panel(panel);
-            let nodes = Nodes::of(TERMS);
+            let [from, to] = self.spans[panel];
+            let nodes = Nodes::of(PANEL_TERMS);
             let half = T::of(0.5) * (to - from);
-            let mut values = [T::zero(); TERMS];
+            let mut values = [T::zero(); PANEL_TERMS];
             let lengths = [self.of.decay(), self.of.longest()];
             wavenumbers(lengths, self.period, [from, to], |omega, weight| {
                 let weight = weight * self.of.excess(omega);
@@ -158,7 +154,7 @@ impl<T: Real> Table<T> {
             });
             let series = nodes.coefficients(&values);
             let largest = series.iter().fold(T::zero(), |most, a| most.max(a.abs()));
-            let counts = |a: &T| a.abs() > T::epsilon() * largest;
+            let counts = |a: &T| a.abs() > T::of(0.25) * T::epsilon() * largest;
             let terms = series.iter().rposition(counts).map_or(1, |last| last + 1);
             let mut integral = primitive(&series[..terms])[..=terms].to_vec();
             integral.iter_mut().for_each(|a| *a *= half);

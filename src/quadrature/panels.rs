@@ -33,8 +33,8 @@ pub(crate) use cauchy_transform::{CauchyTransform, inverse, length, sqrt};
 pub(crate) use edge_integrals::rise as rises_over;
 pub(crate) use half_angle::{Arc, HalfAngle};
 use hilbert_transform::{BATCH, Edges, HilbertTransform};
-pub(crate) use panel::Panel;
 use panel::Series;
+pub(crate) use panel::{Panel, rise};
 use panel_set::{LEAST_ULPS, MIN_NODES};
 pub(crate) use panel_set::{PanelSet, Rises};
 pub(crate) use several::{LoadResponse, Several, System};
@@ -169,11 +169,11 @@ impl<T: Real> PanelIntegrator<T> {
             && edge_integrals::rise(&panel_set.panels, on, T::epsilon() * panel_set.size)
     }
 
-    /// Returns the rise of the gap of the only contact from one place to another, before the bodies
-    /// are turned.
+    /// Returns the rise of the gap of the only contact from one place to another, of the bodies as
+    /// described.
     pub(crate) fn rise(&self, from: T, to: T) -> Option<T> {
         let (panel_set, _) = self.only()?;
-        Some(panel_set.rise(from, to) - panel_set.tilt * (to - from))
+        Some(rise(panel_set.as_described(), from, to))
     }
 
     /// Samples between the nodes of the panels of each contact. Tells whether panels have missed a
@@ -189,8 +189,9 @@ impl<T: Real> PanelIntegrator<T> {
         if self.is_several {
             return self.several.probe(gap);
         }
+        let is_turned = self.panel_set.add(gap);
         let is_missed = self.panel_set.probe(gap, on)?;
-        self.moments = self.moments.filter(|_| !is_missed);
+        self.moments = self.moments.filter(|_| !is_missed && !is_turned);
         Ok(is_missed)
     }
 
@@ -206,8 +207,8 @@ impl<T: Real> PanelIntegrator<T> {
         self.panel_set.spent = self.several.cost;
     }
 
-    fn remember(&mut self, on: Interval<T>) -> Moments<T> {
-        self.panel_set.own_up();
+    fn remember(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Moments<T> {
+        self.panel_set.own_up(gap);
         let from = self.moments.map(|(from, _)| from);
         let m = edge_integrals::moments(&self.panel_set.panels, on, &mut self.over, from);
         (self.moments, self.is_prepared) = (Some((on, m)), false);
@@ -229,7 +230,7 @@ impl<T: Real> PanelIntegrator<T> {
     ) -> Result<Moments<T>, ContactError<T>> {
         self.clear_samples();
         self.panel_set.extend(gap, on)?;
-        Ok(self.remember(on))
+        Ok(self.remember(gap, on))
     }
 
     /// Returns the number of nodes that should suffice, from the first ratio of the coefficients
@@ -270,7 +271,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         self.decay = coarse.then(|| {
             let ratio = |a: &[T]| a[2].abs().max(a[3].abs()) / a[0].abs().max(a[1].abs());
             let largest = |max: T, panel: &Panel<T>| max.max(ratio(&panel.series));
-            let decay = self.panel_set.panels.iter().fold(T::epsilon(), largest);
+            let decay = self.panel_set.as_described().iter().fold(T::epsilon(), largest);
             [decay.min(T::one()), on.half_width()]
         });
         self.panel_set.coarse = false;
@@ -283,7 +284,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         on: Interval<T>,
     ) -> Result<Moments<T>, ContactError<T>> {
         self.turn_to_one();
-        if self.panel_set.turn(gap.tilt()) {
+        if self.panel_set.add(gap) {
             self.moments = None;
         }
         if let Some((_, m)) = self.moments.as_ref().filter(|(last, _)| last.is_same(&on)) {
@@ -304,7 +305,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
             self.moments = None;
             self.panel_set.extend(gap, on)?;
         }
-        let m = self.remember(on);
+        let m = self.remember(gap, on);
         // An error small enough on a wide span may be too large for a narrow one in its middle.
         let is_wide = |have: Interval<T>| have.half_width() > T::of(1.25) * on.half_width();
         if self.is_poor(&m) && self.panel_set.interval().is_some_and(is_wide) {

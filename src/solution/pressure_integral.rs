@@ -20,7 +20,7 @@ mod graded_rule;
 
 use super::potential::Potential;
 use super::solved::Solved;
-use crate::kernel::{Kernel, Loads, Spread, terms};
+use crate::kernel::{Kernel, Spread, loads, terms};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{ContactError, Ends, EvaluationError, Interval, Pressure, Real};
 use graded_rule::GradedRule;
@@ -163,7 +163,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
     /// kernel.
     pub fn loads(&self, kernel: &Kernel<'_, T>) -> Result<Vec<[T; 2]>, ContactError<T>> {
         let distance = T::of(0.5) * kernel.distance();
-        Ok(Loads::of(distance, &self.spreads(distance)?).nodes)
+        Ok(loads(distance, &self.spreads(distance)?))
     }
 
     /// Returns the densities by as many coefficients as reach a kernel with its nearest singularity

@@ -133,7 +133,7 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of sampling the bodies.
     pub fn steepest_slope(&self) -> Result<T, ContactError<T>> {
-        let (gap, mut sampler) = (self.gap.before_bend(), Sampler::default());
+        let (gap, mut sampler) = (&self.gap, Sampler::default());
         let mut steepest = T::zero();
         for &on in self.intervals() {
             let angle = |i: usize| T::pi() * T::count(i) / T::count(SLOPE_POINTS - 1);

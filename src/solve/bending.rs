@@ -21,7 +21,6 @@ use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
 use crate::solution::{ContactState, Integrals, Report, Solved};
 use crate::{ContactError, Edge, Ends, InputError, Interval, Real, Side, SolveError};
 use cells::line_of_load;
-use std::sync::Arc;
 
 /// Contacts solved before the search is given up.
 const MAX_SOLVES: usize = 120;
@@ -395,13 +394,12 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn solve(&mut self) -> Result<Solve<'b, T>, ContactError<T>> {
         let (kappa, is_checked, is_last) =
             (self.contact.kappa, self.is_checked, self.has_converged);
-        let is_again = self.bent.is_some();
         let gap = match (self.bent.take(), hull(&self.spreads)) {
             (Some(bent), _) => bent,
             (None, None) => self.gap.clone(),
             (None, Some(on)) => {
                 self.kernel.in_range(self.gap.range(), on);
-                self.gap.bent(&Arc::new(Bend::new(&self.kernel, &self.spreads)), kappa)?
+                self.gap.bent(Bend::new(&self.kernel, &self.spreads), kappa)
             }
         };
         let mut scene = self.contact.clone();
@@ -410,7 +408,9 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         let control = self.control;
         let Work { integrator, workspace, cost } = &mut *self.work;
         **cost += integrator.cost();
-        integrator.reset(is_again);
+        let id = Some(gap.id());
+        integrator.reset(workspace.bent == id);
+        workspace.bent = id;
         (workspace.report, workspace.cell_work) = (Report::new(), 0);
         let found = find_under(&scene, control, self.work)?;
         self.check_width(found.interval, MOST_TIMES)?;

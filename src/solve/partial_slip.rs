@@ -54,7 +54,7 @@ impl<'b, T: Real> Contact<'b, T> {
         let turn = T::of(0.5) * tension / stiffness;
         let turn = if force < T::zero() { turn } else { -turn };
         let mut scene = self.clone();
-        scene.gap = self.gap.tilted(normal.tilt() + turn);
+        scene.gap = self.gap.tilted(normal.tilt() + turn).into_owned();
         scene.edges = self.edges.map(Edge::let_go);
         (scene.start, scene.certified) = (None, false);
         Ok((scene, load - force.abs() / friction))

@@ -13,8 +13,8 @@ use crate::common::{Profile, graph, join, kernel_values};
 use linecontact::profile::{Line, Parabola};
 use linecontact::reference::Westergaard;
 use linecontact::{
-    Base, Body, Contact, Control, Edge, Flat, Foundation, Layer, Material, PlaneState, Reference,
-    References, RegularKernel, Solution, Solver, SurfaceCompliance,
+    Base, Body, Contact, Control, Curve, CurvePoint, Edge, Flat, Foundation, Layer, Material,
+    PlaneState, Reference, References, RegularKernel, Solution, Solver, SurfaceCompliance,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -274,6 +274,31 @@ fn controls_and_solvers_agree() {
         let warm = solver.solve(&contact, Control::Load(share * load)).unwrap();
         let cold = contact.solve(Control::Load(share * load)).unwrap();
         assert!((warm.a() / cold.a() - 1.0).abs() < 4e-15, "{share}");
+    }
+}
+
+/// Bodies are sampled as they are described: a bend that changes calls no curve. (Each bend sampled
+/// them anew: 155 evaluations and heights for the next load.)
+#[test]
+fn a_bend_samples_nothing() {
+    let circle = Curve::new([-1.5, 1.5], |k: f64| {
+        let ((sin, cos), half) = (k.sin_cos(), (0.5 * k).sin());
+        CurvePoint { x: 10.0 * sin, y: 20.0 * half * half, dx: 10.0 * cos, dy: 10.0 * sin }
+    });
+    let contact = Contact::new(&Flat, &circle).unwrap();
+    let rubber = layer(1.0, 0.3, 1.0, Base::Bonded);
+    let coated = contact.clone().materials(rubber, RIGID, PlaneState::Strain);
+    let sum = |solution: Solution<'_, f64>| solution.cost().evaluations + solution.cost().heights;
+    for half_width in [0.3, 1.0] {
+        let [plain, coated] = [&contact, &coated].map(|contact| {
+            let load = contact.solve(Control::HalfWidth(half_width)).unwrap().load();
+            let mut solver = Solver::new();
+            let mut under =
+                |share: f64| sum(solver.solve(contact, Control::Load(share * load)).unwrap());
+            [1.0, 1.02, 0.98, 1.0].map(&mut under)
+        });
+        println!("{half_width}: {plain:?} {coated:?}");
+        assert!(4 * coated[0] <= 5 * plain[0] && coated[1..].iter().all(|&next| next <= 16));
     }
 }
 

@@ -56,10 +56,16 @@ pub(super) fn segment<T: Real>(from: &Node<T>, to: &Node<T>) -> Segment<T> {
 }
 
 impl<T: Real> Survey<T> {
-    /// Returns the height of the gap `Y₂ - Y₁` at x, as far as it is known.
-    pub fn height(&self, x: T) -> T {
+    /// Returns the height of the gap `Y₂ - Y₁` of the bodies as described at x, as far as it is
+    /// known.
+    pub fn height_as_described(&self, x: T) -> T {
         let [lower, upper] = self.bodies.each_ref().map(|body| body.at(body.panels_at(x)[1], x).y);
         upper - lower
+    }
+
+    /// Returns the height of the gap at x, of bodies that are not turned.
+    pub fn height(&self, gap: &Gap<'_, T>, x: T) -> T {
+        self.height_as_described(x) + gap.bend_at([1], x)[0]
     }
 
     /// Returns the uncertainty of the height at x, including the rounding of x.
@@ -73,12 +79,12 @@ impl<T: Real> Survey<T> {
         self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body))
     }
 
-    /// Returns the slope of the gap at x, as far as it is known; at a breakpoint the slope on its
-    /// right.
-    pub fn slope(&self, x: T) -> T {
+    /// Returns the slope of the gap at x, of bodies that are not turned, as far as it is known; at
+    /// a breakpoint the slope on its right.
+    pub fn slope(&self, gap: &Gap<'_, T>, x: T) -> T {
         let slope = |body: &super::Body<T>| body.at(body.panels_at(x)[1], x).slope;
         let [lower, upper] = self.bodies.each_ref().map(slope);
-        upper - lower
+        upper - lower + gap.bend_at([0], x)[0]
     }
 
     /// Returns the gap wherever either body was sampled, `[x, h]` by rising x.
@@ -174,26 +180,14 @@ impl<T: Real> Survey<T> {
     fn borne(&self, half_width: T) -> T {
         let sum = COSINES.iter().fold(T::zero(), |sum, &cosine| {
             let (cosine, aside) = (T::of(cosine), T::of(cosine) * half_width);
-            let [left, right] =
-                [self.lowest - aside, self.lowest + aside].map(|x| self.slope_near(x));
+            let [left, right] = [self.lowest - aside, self.lowest + aside].map(|x| self.near(x)[1]);
             sum + cosine * (right - left)
         });
         half_width * sum / T::count(2 * COSINES.len())
     }
 
-    /// Returns the approximate slope of the gap at x, from the points around it.
-    fn slope_near(&self, x: T) -> T {
-        let [_, slope] = self.near(x);
-        slope
-    }
-
-    /// Returns the approximate height of the gap at x, from the points around it.
-    pub(super) fn height_near(&self, x: T) -> T {
-        let [height, _] = self.near(x);
-        height
-    }
-
-    fn near(&self, x: T) -> [T; 2] {
+    /// Returns the approximate height and slope of the gap at x, from the points around it.
+    pub(super) fn near(&self, x: T) -> [T; 2] {
         let after = self.nodes.partition_point(|node| node.x <= x).max(1).min(self.nodes.len() - 1);
         let segment = segment(&self.nodes[after - 1], &self.nodes[after]);
         let t = (x - self.nodes[after - 1].x) / segment.width;
@@ -203,10 +197,10 @@ impl<T: Real> Survey<T> {
     /// Returns the approximate load for a prescribed quantity, as F/κ: of a round body the gap at
     /// the limits of the contact, above the lowest. On unlike sides of the lowest gap it lies on
     /// the flatter one.
-    pub fn load_of(&self, asked: Asked<T>) -> T {
+    pub fn load_of(&self, gap: &Gap<'_, T>, asked: Asked<T>) -> T {
         let borne = |half_width: T| {
-            let Interval { left, right } = self.level(half_width);
-            self.height(left).min(self.height(right)) - self.height(self.lowest)
+            let Interval { left, right } = self.level(gap, half_width);
+            self.height(gap, left).min(self.height(gap, right)) - self.height(gap, self.lowest)
         };
         match asked {
             Asked::Load(load) | Asked::Turning(load) => load,
@@ -270,20 +264,26 @@ impl<T: Real> Survey<T> {
     /// Returns the interval around the lowest gap in which the gap seems to rise by less than
     /// `rise`. Towards an end of the bodies, where the slope may be infinite, it reaches half the
     /// way from the last node.
-    pub fn below(&self, rise: T) -> Interval<T> {
+    pub fn below(&self, gap: &Gap<'_, T>, rise: T) -> Interval<T> {
         let (x, [from, to]) = (self.lowest, self.range);
         let heights = self.bodies.each_ref().map(|body| body.at(body.panels_at(x)[1], x).y.abs());
         let rounding = T::of(8.0) * T::epsilon() * (heights[0] + heights[1]);
-        let level = self.height(x) + rise.max(rounding);
+        let level = self.height(gap, x) + rise.max(rounding);
         let (left, right) = self.nodes.split_at(self.nodes.partition_point(|node| node.x < x));
         Interval {
-            left: self.rises_to(level, left.iter().rev(), from),
-            right: self.rises_to(level, right.iter(), to),
+            left: self.rises_to(gap, level, left.iter().rev(), from),
+            right: self.rises_to(gap, level, right.iter(), to),
         }
     }
 
     /// Finds the place where the gap rises to a level, over nodes from the lowest gap outward.
-    fn rises_to<'n>(&self, level: T, outward: impl Iterator<Item = &'n Node<T>>, end: T) -> T
+    fn rises_to<'n>(
+        &self,
+        gap: &Gap<'_, T>,
+        level: T,
+        outward: impl Iterator<Item = &'n Node<T>>,
+        end: T,
+    ) -> T
     where
         T: 'n,
     {
@@ -304,14 +304,14 @@ impl<T: Real> Survey<T> {
                 break;
             }
             let middle = half * low + half * high;
-            *(if self.height(middle) > level { &mut high } else { &mut low }) = middle;
+            *(if self.height(gap, middle) > level { &mut high } else { &mut low }) = middle;
         }
         high
     }
 
     /// Returns the interval of a half-width around the lowest gap with apparently equal heights at
     /// both ends, if there is room for it.
-    pub fn level(&self, half_width: T) -> Interval<T> {
+    pub fn level(&self, gap: &Gap<'_, T>, half_width: T) -> Interval<T> {
         let (x, half, [from, to]) = (self.lowest, T::of(0.5), self.range);
         let mut left = (x - half_width).max(from + half_width);
         let mut right = (x + half_width).min(to - half_width);
@@ -320,14 +320,16 @@ impl<T: Real> Survey<T> {
             if !(left < middle && middle < right) {
                 break;
             }
-            let rises = self.height(middle + half_width) > self.height(middle - half_width);
+            let [left_end, right_end] = [middle - half_width, middle + half_width];
+            let rises = self.height(gap, right_end) > self.height(gap, left_end);
             *(if rises { &mut right } else { &mut left }) = middle;
         }
         let centre = half * left + half * right;
         Interval { left: centre - half_width, right: centre + half_width }
     }
 
-    pub(super) fn find_lowest(&self, nodes: &[Node<T>]) -> T {
+    pub(super) fn find_lowest(&self, gap: &Gap<'_, T>) -> T {
+        let nodes = &self.nodes;
         // Heights far away may be so large that all others vanish in their rounding.
         let rounding = |one: T, other: T| T::of(8.0) * T::epsilon() * (one.abs() + other.abs());
         let mut lowest: Option<(T, [T; 2])> = None;
@@ -353,13 +355,13 @@ impl<T: Real> Survey<T> {
             return from;
         }
         // Two separate places are equally low: takes the first.
-        let [least, height] = [self.height(from), self.height(middle)];
+        let [least, height] = [self.height(gap, from), self.height(gap, middle)];
         if height <= least + rounding(height, least) { middle } else { from }
     }
 
     /// Returns the place between two nodes where the slope passes through zero, near the zero of a
     /// cubic.
-    pub(super) fn polished(&self, x: T) -> T {
+    pub(super) fn polished(&self, gap: &Gap<'_, T>, x: T) -> T {
         let nodes = &self.nodes;
         let after = nodes.partition_point(|node| node.x < x);
         let Some(before) =
@@ -375,7 +377,7 @@ impl<T: Real> Survey<T> {
         let rise = rises - falls;
         let mut at = x;
         for _ in 0..MAX_POLISHES {
-            let slope = self.slope(at);
+            let slope = self.slope(gap, at);
             if slope.abs() <= T::of(64.0) * T::epsilon() * rise {
                 return at;
             }
@@ -393,6 +395,6 @@ impl<T: Real> Survey<T> {
                 break;
             }
         }
-        if self.slope(at).abs() <= T::of(SHARE_OF_RISE) * rise { at } else { x }
+        if self.slope(gap, at).abs() <= T::of(SHARE_OF_RISE) * rise { at } else { x }
     }
 }

@@ -162,8 +162,9 @@ impl<T: Real> Survey<T> {
         Ok(())
     }
 
-    /// Learns from others how much the gap rises over some spans, and refines panels that
-    /// contradict them: no feature that the panels of a contact have seen is missing.
+    /// Learns from others how much the gap of the bodies as described rises over some spans, and
+    /// refines panels that contradict them: no feature that the panels of a contact have seen is
+    /// missing.
     ///
     /// # Errors
     /// As [`take`](Self::take).
@@ -184,7 +185,8 @@ impl<T: Real> Survey<T> {
                 noisy.fold(T::zero(), |sum, panel| sum + panel.doubt)
             };
             let is_off = |&&([from, to], rise): &&([T; 2], T)| {
-                let off = (self.height(to) - self.height(from) - rise).abs();
+                let height = |x: T| self.height_as_described(x);
+                let off = (height(to) - height(from) - rise).abs();
                 off > T::of(MAX_AT_FOOT) * load + noise(from) + noise(to)
             };
             marked[0].extend(rises.iter().filter(is_off).map(|(span, _)| *span));
@@ -244,7 +246,7 @@ impl<T: Real> Survey<T> {
             is_finer = true;
         }
         if is_finer {
-            self.join();
+            self.join(gap);
         }
         Ok(is_finer)
     }
@@ -280,7 +282,7 @@ impl<T: Real> Survey<T> {
         let hull = ends.map_or(infinite, |(on, last)| T::of(0.5) * (last.right - on.left));
         let nodes = self.nodes.iter().map(|node| [node.x, node.height]);
         let limits = contacts.iter().map(|on| on.left).chain([self.lowest]);
-        let heights = nodes.chain(limits.map(|x| [x, self.height_near(x)]));
+        let heights = nodes.chain(limits.map(|x| [x, self.near(x)[0]]));
         let heights = heights.map(|[x, height]| gap.turned(x, height));
         let lowest = heights.fold(infinite, |least: T, height| least.min(height));
         let ratio = (self.range[1] - self.range[0]) / hull;

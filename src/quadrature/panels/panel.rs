@@ -2,8 +2,9 @@
 
 use super::PanelIntegrator;
 use super::panel_set::PanelSet;
+use crate::gap::Gap;
 use crate::numerics::chebyshev::{
-    Coeffs, MAX_SIZE, SIZES, Table, expand, primitive, size_for, value_at, values,
+    Coeffs, MAX_SIZE, SIZES, Table, by_size, expand, primitive, size_for, value_at, values,
 };
 use crate::real::same;
 use crate::{Interval, Real};
@@ -33,8 +34,6 @@ pub(crate) struct Panel<T> {
     /// Distance between places in a contact at which the series was checked; infinite if only its
     /// nodes were sampled.
     pub apart: T,
-    /// First coefficient before the bodies were turned.
-    pub(super) untilted: T,
 }
 
 impl<T: Real> Panel<T> {
@@ -50,7 +49,6 @@ impl<T: Real> Panel<T> {
             noise: zero,
             fall: zero,
             apart,
-            untilted: zero,
         }
     }
 
@@ -79,12 +77,43 @@ impl<T: Real> Panel<T> {
         self.length = 2;
     }
 
-    /// Turns the panel from one tilt to another; turning back restores it exactly.
-    pub fn turn(&mut self, from: T, to: T) {
-        if same(from, T::zero()) {
-            self.untilted = self.series[0];
+    /// Appends the panel with what is added to the gap of the bodies as described, in parts where a
+    /// bend takes more terms than one panel has.
+    pub fn push_with_added(&self, gap: &Gap<'_, T>, to: &mut Vec<Self>) {
+        let Some(bend) = gap.bend() else {
+            let mut turned = *self;
+            turned.series[0] += gap.tilt();
+            return to.push(turned);
+        };
+        let [left, right] = self.x;
+        let terms = bend.terms(Interval { left, right });
+        let n = size_for(terms).max(self.n);
+        let (mut sum, mut values) = (Self { n, ..*self }, [T::zero(); MAX_SIZE]);
+        values.iter_mut().zip(sum.nodes()).for_each(|(value, x)| *value = gap.added_slope(x));
+        let added: Coeffs<T> = by_size!(n, N => {
+            let row = Table::of(N).coefficients(&values.as_chunks::<N>().0[0]);
+            std::array::from_fn(|k| row.get(k).copied().unwrap_or(T::zero()))
+        });
+        let size = |terms: &[T], part: usize| {
+            terms.iter().fold(T::zero(), |most, a| most.max(a.component(part).abs()))
+        };
+        let rounding = |part: usize| T::of(2.0) * T::epsilon() * size(&added, part);
+        let is_open = |part: usize| size(&added[n - 2..n], part) > rounding(part);
+        if terms > MAX_SIZE && (0..T::COMPONENTS).any(is_open) {
+            let middle = T::of(0.5) * left + T::of(0.5) * right;
+            for x in [[left, middle], [middle, right]] {
+                let (series, length) = self.over(Interval { left: x[0], right: x[1] });
+                Self { x, series, length, ..*self }.push_with_added(gap, to);
+            }
+            return;
         }
-        self.series[0] = self.untilted + to;
+        // What lies beyond the length is noise.
+        sum.series[self.length..].fill(T::zero());
+        sum.series.iter_mut().zip(added).for_each(|(a, by)| *a += by);
+        sum.count(n);
+        // The series tells whether the slope falls.
+        (sum.error, sum.fall) = (self.error + rounding(0), T::one() / T::zero());
+        to.push(sum);
     }
 
     /// Returns the place of `x` in the panel, from -1 to 1; exact at both ends.
@@ -217,8 +246,8 @@ impl<T: Real> PanelIntegrator<T> {
         to.extend(uneven.map(|panel| [panel.x[0].max(on.left), panel.x[1].min(on.right)]));
     }
 
-    /// Lists the rises of the gap from node to node of the panels of all contacts, before the
-    /// bodies are turned.
+    /// Lists the rises of the gap from node to node of the panels of all contacts, of the bodies as
+    /// described.
     pub(crate) fn rises_between(&self) -> Vec<([T; 2], T)> {
         let mut rises = Vec::new();
         // A first estimate has seen too little.
@@ -226,16 +255,26 @@ impl<T: Real> PanelIntegrator<T> {
             return rises;
         }
         let count = self.several().map_or(1, |several| several.contacts().len());
-        for PanelSet { panels, tilt, .. } in (0..count).map(|i| self.contact(i).0) {
-            for panel in panels {
+        for panel_set in (0..count).map(|i| self.contact(i).0) {
+            for panel in panel_set.as_described() {
                 let nodes: Vec<T> = panel.nodes().collect();
-                let rise = |x: &[T]| ([x[0], x[1]], panel.rise(x[0], x[1]) - *tilt * (x[1] - x[0]));
+                let rise = |x: &[T]| ([x[0], x[1]], panel.rise(x[0], x[1]));
                 let x = [&[panel.x[0]], &nodes[..], &[panel.x[1]]].concat();
                 rises.extend(x.windows(2).map(rise));
             }
         }
         rises
     }
+}
+
+/// Returns `∫ g dx` between two places by the panels around.
+pub(crate) fn rise<T: Real>(panels: &[Panel<T>], from: T, to: T) -> T {
+    if to < from {
+        return -rise(panels, to, from);
+    }
+    let on = Interval { left: from, right: to };
+    let spans = spans(within(panels, on), on);
+    spans.fold(T::zero(), |sum, (panel, [from, to])| sum + panel.rise(from, to))
 }
 
 /// Lists panels with their parts of an interval; the outermost parts reach its ends.

@@ -9,10 +9,10 @@ mod sampling;
 pub(crate) use derivative_check::Rises;
 
 use super::panel::Panel;
-use crate::gap::{Cost, Gap, Guides, SampleCache, Sampler};
+use crate::gap::{Added, Cost, Gap, Guides, SampleCache, Sampler};
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, size_for};
 use crate::profile::Noise;
-use crate::{ContactError, Ends, Interval, Real, Side, real::same};
+use crate::{ContactError, Ends, Interval, Real, Side};
 use candidate::{Candidate, FALL_OF_A_ROOT, LEVELS_OF_A_WAVE, MAX_AT_JUMP, is_long};
 use num_traits::ToPrimitive;
 use sampling::SampledBody;
@@ -90,8 +90,10 @@ pub(crate) struct PanelSet<T> {
     /// Slopes of both bodies at the nodes of the last panel.
     slopes: [Coeffs<T>; 2],
     derivative_sizes: Vec<T>,
-    /// Tilt added to the slope of every panel: samples are of bodies that are not turned.
-    pub tilt: T,
+    /// What is added to the slope of every panel, and the panels of the bodies as described, if
+    /// there is anything.
+    added: Added<T>,
+    described: Vec<Panel<T>>,
 }
 
 impl<T: Real> PanelSet<T> {
@@ -115,13 +117,16 @@ impl<T: Real> PanelSet<T> {
             derivatives: Vec::new(),
             slopes: [[T::zero(); MAX_SIZE]; 2],
             derivative_sizes: Vec::new(),
-            tilt: T::zero(),
+            added: Added::nothing(),
+            described: Vec::new(),
         }
     }
 
     /// Forgets the panels; keeps the curves' last points if the bodies are the same.
     pub fn clear(&mut self, same_bodies: bool) {
         self.panels.clear();
+        self.described.clear();
+        self.added = Added::nothing();
         (self.is_cut_up, self.initial) = (false, MIN_NODES);
         (self.size, self.least) = (T::zero(), T::one() / T::zero());
         self.derivative_sizes.clear();
@@ -140,7 +145,7 @@ impl<T: Real> PanelSet<T> {
 
     /// Decides, before the next solve with the same bodies, whether to cover the span anew.
     pub fn look_back(&mut self) {
-        self.is_cut_up = self.panels.len() > 2 * self.at_first + MAX_ADDED;
+        self.is_cut_up = self.as_described().len() > 2 * self.at_first + MAX_ADDED;
     }
 
     /// Samples the slope next to a given limit, unless it is at the end of a piece, where more is
@@ -162,7 +167,7 @@ impl<T: Real> PanelSet<T> {
             return None;
         }
         let mut sampler = Sampler::default();
-        let slope = sampler.slope_untilted(gap, x, Side::Left);
+        let slope = sampler.slope_as_described(gap, x, Side::Left);
         self.cost += sampler.cost;
         slope.ok().map(|slope| EndProbe { limit, x, slope })
     }
@@ -180,9 +185,8 @@ impl<T: Real> PanelSet<T> {
     /// Tells whether an outermost panel that starts at a breakpoint is much longer than its part
     /// inside an interval.
     pub fn overshoots(&self, gap: &Gap<'_, T>, on: Interval<T>) -> bool {
-        let [Some(first), Some(last)] = [self.panels.first(), self.panels.last()] else {
-            return false;
-        };
+        let panels = self.as_described();
+        let [Some(first), Some(last)] = [panels.first(), panels.last()] else { return false };
         let much = T::of(1.25);
         let beside = |breakpoint: T, reach: T, needed: T| {
             reach > much * needed && gap.is_breakpoint(breakpoint)
@@ -206,16 +210,39 @@ impl<T: Real> PanelSet<T> {
         Some(&self.panels[self.panels.partition_point(|panel| panel.x[1] < x).min(last)])
     }
 
-    /// Turns the panels with the bodies, which costs no sample; tells whether anything has changed.
-    pub fn turn(&mut self, tilt: T) -> bool {
-        if same(tilt, self.tilt) {
+    /// Returns the panels of the bodies as described.
+    pub fn as_described(&self) -> &[Panel<T>] {
+        if self.described.is_empty() { &self.panels } else { &self.described }
+    }
+
+    /// Turns and bends the panels with the bodies, which costs no sample; tells whether anything
+    /// has changed.
+    pub fn add(&mut self, gap: &Gap<'_, T>) -> bool {
+        let added = gap.added();
+        if self.added.is(&added) {
             return false;
         }
-        for panel in &mut self.panels {
-            panel.turn(self.tilt, tilt);
+        self.take_off();
+        if !added.is(&Added::nothing()) {
+            std::mem::swap(&mut self.panels, &mut self.described);
+            for panel in &self.described {
+                panel.push_with_added(gap, &mut self.panels);
+            }
         }
-        self.tilt = tilt;
+        // On a thin layer far more may be added than there was.
+        let ends = self.panels.iter().flat_map(Panel::at_ends).map(|slope| slope.abs());
+        self.size = ends.filter(|_| added.bend.is_some()).fold(self.size, T::max);
+        self.added = added;
         true
+    }
+
+    /// Takes off what was added.
+    fn take_off(&mut self) {
+        if !self.described.is_empty() {
+            std::mem::swap(&mut self.panels, &mut self.described);
+            self.described.clear();
+        }
+        self.added = Added::nothing();
     }
 
     /// Covers an interval, sampling only what is missing.
@@ -223,15 +250,15 @@ impl<T: Real> PanelSet<T> {
         let [from, to] = gap.range();
         let on = Interval { left: on.left.max(from), right: on.right.min(to) };
         if !self.covers(on) {
-            self.turn(T::zero());
-            self.extend_untilted(gap, on)?;
+            self.take_off();
+            self.extend_as_described(gap, on)?;
             self.check_declared(gap)?;
         }
-        self.turn(gap.tilt());
+        self.add(gap);
         Ok(())
     }
 
-    fn extend_untilted(
+    fn extend_as_described(
         &mut self,
         gap: &Gap<'_, T>,
         on: Interval<T>,

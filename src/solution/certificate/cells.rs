@@ -47,9 +47,8 @@ impl<'g, T: Real> Cells<'g, T> {
 
     /// Samples the cells between rising places.
     pub fn over(&mut self, places: &[T]) -> Result<PanelSet<T>, ContactError<T>> {
-        let (gap, cells) = (self.gap, &mut self.one);
+        let (gap, cells) = (&self.gap.as_described(), &mut self.one);
         let mut row = PanelSet::new(cells.tolerance);
-        row.tilt = gap.tilt();
         // A cell shows nothing beyond its last node: the ends are probed.
         let ends = Ends { left: places[0], right: places[places.len() - 1] };
         let looks = Ends::from_fn(|end| cells.look_at(gap, end, ends[end]));
@@ -77,6 +76,7 @@ impl<'g, T: Real> Cells<'g, T> {
             before = Some((cell, row.panels.len(), cells.size));
             row.panels.extend_from_slice(&cells.panels);
         }
+        row.add(self.gap);
         Ok(row)
     }
 

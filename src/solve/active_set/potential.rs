@@ -10,7 +10,7 @@
 //! all cells have columns.
 
 use crate::Real;
-use crate::kernel::{Kernel, Loads, at_least};
+use crate::kernel::{Kernel, at_least};
 use crate::numerics::dot;
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -105,7 +105,7 @@ struct Smooth<'s, T: Real> {
     range: [T; 2],
     /// Nodes in each cell, with weights whose sum is one, and what the integral of the kernel lacks
     /// of a symmetric one for a force there: it may contain any function of s.
-    nodes: Vec<(Loads<T>, T)>,
+    nodes: Vec<(Vec<[T; 2]>, T)>,
     /// Means of the potential, for cells of some widths at some places: of a kernel of `x - s`, at
     /// some distance, which many pairs share.
     known: RefCell<HashMap<[u64; 4], T>>,
@@ -129,7 +129,7 @@ impl<T: Real> Smooth<'_, T> {
             let lack = |x: T| self.kernel.height(x, left) - self.kernel.height(left, x);
             let lacks = nodes.iter().map(|&[x, weight]| weight * lack(x));
             let lacks = lacks.fold(T::zero(), |sum, lack| sum + lack);
-            (Loads { nodes }, lacks)
+            (nodes, lacks)
         };
         self.nodes = cells.iter().map(nodes).collect();
     }
@@ -147,8 +147,8 @@ impl<T: Real> Smooth<'_, T> {
         });
         let mean = || {
             let ([left, right], (loads, lacks)) = (self.range, &self.nodes[j]);
-            let of = |&[x, weight]: &[T; 2]| weight * loads.height(self.kernel, x);
-            let sum = self.nodes[i].0.nodes.iter().map(of).fold(*lacks, |sum, of| sum + of);
+            let of = |&[x, weight]: &[T; 2]| weight * self.kernel.sums([1], x, loads)[0];
+            let sum = self.nodes[i].0.iter().map(of).fold(*lacks, |sum, of| sum + of);
             // With a potential of zero at the distance of both ends the matrix is positive.
             let level = self.kernel.height(right, left);
             let distance = (one.centre - other.centre).abs();

@@ -20,6 +20,7 @@ use crate::gap::Gap;
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
 use crate::{Ends, Interval, Real, Side};
+use std::borrow::Cow;
 
 /// Steps before the search is given up.
 const MAX_NEWTON_STEPS: usize = 60;
@@ -236,13 +237,13 @@ impl<T: Real> NewtonSeveral<T> {
     }
 
     /// Takes the step of the residues, and of the tilt or of the load, if sought.
-    fn turn(&mut self, turned: &mut Gap<'_, T>, besides: Option<Besides<T>>) {
+    fn turn(&mut self, turned: &mut Cow<'_, Gap<'_, T>>, besides: Option<Besides<T>>) {
         let steps = &self.step[self.system.free.len()..];
         self.residues.iter_mut().zip(steps).for_each(|(residue, &step)| *residue -= step);
         match (besides, self.step.last()) {
             (Some(Besides::Tilt(_)), Some(&step)) => {
                 self.tilt -= step;
-                *turned = turned.tilted(self.tilt);
+                *turned = Cow::Owned(turned.tilted(self.tilt).into_owned());
             }
             (Some(Besides::Load(_)), Some(&step)) => self.load -= step,
             _ => {}

@@ -64,7 +64,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let mut share = half;
         for step in 1..=MAX_HALVES + MAX_CHORDS {
             let x = left + share * (right - left);
-            let slope = look.slope(x) + self.gap.tilt() - self.rate(fields, x);
+            let slope = look.slope(self.gap, x) + self.gap.tilt() - self.rate(fields, x);
             if slope > T::zero() {
                 (right, rises) = (x, Some(slope));
             } else {
@@ -169,15 +169,19 @@ impl<T: Real> SignoriniCheck<'_, T> {
             Rises { between: [from, to], by_heights, by_slopes, highest, open }.compare()
         };
         let doubt = look.doubt_at(from) + look.doubt_at(to);
-        if compare([look.height(from), look.height(to)], doubt).is_ok() {
+        if compare([from, to].map(|x| look.height_as_described(x)), doubt).is_ok() {
             return Ok(());
         }
         let mut sampler = Sampler::default();
-        // Like those of the survey, before the bodies are turned.
-        let before = sampler.height_untilted(self.gap, from)?;
-        let after = sampler.height_untilted(self.gap, to)?;
+        let before = sampler.height_as_described(self.gap, from)?;
+        let after = sampler.height_as_described(self.gap, to)?;
         cost.heights += sampler.cost.evaluations;
         compare([before, after], T::zero())
+    }
+
+    /// Returns the height of the gap at a place, before the bodies are loaded.
+    fn height_at(&self, look: &Survey<T>, x: T) -> T {
+        self.gap.turned(x, look.height(self.gap, x))
     }
 
     /// Returns a height at a place as it is, and a span without what lies in contacts.
@@ -199,7 +203,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let to = if i == after { to } else { limit(contacts[i].left) };
             let is_inside = from[0] < low.x && low.x < to[0];
             let x = if is_inside { low.x } else { T::of(0.5) * (from[0] + to[0]) };
-            let height = if is_inside { low.height } else { self.gap.turned(x, look.height(x)) };
+            let height = if is_inside { low.height } else { self.height_at(look, x) };
             let between = Some([from, to]);
             (from[0] < to[0]).then_some(LowPoint { x, height, between, ..low })
         })
@@ -312,7 +316,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let on = [left.max(from.room.left), right.min(from.room.right)];
         let x = self.lowest_between(fields, look, on);
         let verdict = if !from.is_near(x) {
-            let height = self.gap.turned(x, look.height(x));
+            let height = self.height_at(look, x);
             self.verdict(fields, from, [x, height, hidden])
         } else {
             // A span this vague does not show its lowest place.
@@ -380,7 +384,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let at = self.gap.nearest(edge);
         let (height, hidden) = match self.panels.several() {
             Some(several) => (several.height(contact, side), T::zero()),
-            None => (self.gap.turned(at, look.height(at)), look.doubt_at(at)),
+            None => (self.height_at(look, at), look.doubt_at(at)),
         };
         let left = next.checked_sub(1).map_or(from, |i| contacts[i].right);
         let right = contacts.get(next).map_or(to, |on| on.left);

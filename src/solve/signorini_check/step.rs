@@ -1,7 +1,7 @@
 //! Steps of the heights, where bodies seem to overlap.
 
 use crate::gap::{Gap, Sampler};
-use crate::quadrature::panels::{PanelSet, Rises};
+use crate::quadrature::panels::{PanelSet, Rises, rise};
 use crate::{ContactError, Interval, Real};
 
 /// Halvings of the way in search of a step, down to about ε^(1/2) of it.
@@ -17,7 +17,7 @@ pub(in crate::solve) fn step_of_heights<T: Real>(
     contacts: Interval<T>,
     overlap: T,
 ) -> Option<ContactError<T>> {
-    let gap = &gap.tilted(T::zero());
+    let gap = &gap.as_described();
     let left = gap.nearest(contacts.left.min(overlap));
     let right = gap.nearest(contacts.right.max(overlap));
     let (mut panels, mut sampler) = (PanelSet::new(T::epsilon().sqrt()), Sampler::default());
@@ -26,7 +26,7 @@ pub(in crate::solve) fn step_of_heights<T: Real>(
     let rises = |[from, to]: [[T; 2]; 2], highest: T| Rises {
         between: [from[0], to[0]],
         by_heights: to[1] - from[1],
-        by_slopes: panels.rise(from[0], to[0]),
+        by_slopes: rise(&panels.panels, from[0], to[0]),
         highest,
         open: T::of(8.0) * error * (to[0] - from[0]),
     };

@@ -20,9 +20,12 @@ impl<T: Real> Single<'_, '_, T> {
     ) -> Result<Option<Interval<T>>, ContactError<T>> {
         if from == Elsewhere::Low {
             let Some(look) = self.look else { return Ok(None) };
+            let gap = &self.contact.gap;
             return Ok(match self.conditions.given {
-                Given::Load(load) => Some(look.below(T::of(2.0) * load / self.conditions.kappa)),
-                Given::HalfWidth(half_width) => Some(look.level(half_width)),
+                Given::Load(load) => {
+                    Some(look.below(gap, T::of(2.0) * load / self.conditions.kappa))
+                }
+                Given::HalfWidth(half_width) => Some(look.level(gap, half_width)),
                 Given::Centre { .. } => None,
             });
         }

@@ -261,7 +261,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let range = [ends.left, ends.right];
         let (at, known, start) = (conditions.at(), &turned[..], &newton.on[..]);
         let scene = Scene { kappa, load, at, range, cells, known, start, kernel: None };
-        let mut height = |x: T| Ok(gap.turned(x, look.height(gap.nearest(x))));
+        let mut height = |x: T| Ok(gap.turned(x, look.height(gap, gap.nearest(x))));
         active_set(&scene, cell_work, &mut height).map_err(|error| match error {
             NotFound::Height(error) => error,
             _ => ContactError::Solve(SolveError::NoEquilibrium {

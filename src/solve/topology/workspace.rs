@@ -3,7 +3,7 @@
 use super::super::exterior_field::ExteriorFields;
 use super::super::newton::several::NewtonSeveral;
 use super::super::signorini_check::{Overlaps, Passed, TensionSpans};
-use crate::gap::{Asked, Cost, Gap, Survey};
+use crate::gap::{Asked, Cost, Gap, GapId, Survey};
 use crate::kernel::Spread;
 use crate::solution::Report;
 use crate::{ContactError, Interval, Real};
@@ -16,7 +16,7 @@ const MAX_START_UNCERTAINTY: f64 = 0.25;
 pub(crate) struct Workspace<T> {
     /// Heights of the bodies, and the number of their gap.
     pub(in super::super) look: Survey<T>,
-    pub(super) of: Option<u64>,
+    pub(super) of: Option<GapId<T>>,
     /// Length of the narrowest feature of the last request.
     pub(super) resolution: Option<T>,
     pub(super) newton: NewtonSeveral<T>,
@@ -32,8 +32,10 @@ pub(crate) struct Workspace<T> {
     /// Cells times steps, summed over the active sets of this search.
     pub cell_work: usize,
     pub report: Report,
-    /// Pressures that bend the bodies, of a scene with a kernel, and the number of its gap.
+    /// Pressures that bend the bodies, of a scene with a kernel, and its bodies, of which the
+    /// panels have samples.
     pub(in super::super) spreads: Vec<Spread<T>>,
+    pub(in super::super) bent: Option<GapId<T>>,
 }
 
 impl<T: Real> Workspace<T> {
@@ -52,12 +54,13 @@ impl<T: Real> Workspace<T> {
             cell_work: 0,
             report: Report::new(),
             spreads: Vec::new(),
+            bent: None,
         }
     }
 
-    /// Returns the survey, if it belongs to these bodies.
+    /// Returns the survey, if it belongs to these bodies, bent as they are.
     pub fn survey_of(&self, gap: &Gap<'_, T>) -> Option<&Survey<T>> {
-        (self.of == Some(gap.number())).then_some(&self.look)
+        (self.of == Some(gap.id()) && self.look.is_bent_as(gap)).then_some(&self.look)
     }
 
     /// Keeps the contacts that were found.
@@ -80,7 +83,7 @@ impl<T: Real> Workspace<T> {
         cost: &mut Cost,
     ) -> Result<T, ContactError<T>> {
         self.take(gap, cost)?;
-        Ok(self.look.load_of(asked))
+        Ok(self.look.load_of(gap, asked))
     }
 
     /// Forgets the searches for narrow features, and the solutions that have passed, if another
@@ -111,7 +114,7 @@ impl<T: Real> Workspace<T> {
         gap: &Gap<'_, T>,
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
-        if self.of != Some(gap.number()) {
+        if self.of != Some(gap.id()) {
             self.of = None;
             self.passed.clear();
             // Room for the check, which not all bodies need.
@@ -119,7 +122,10 @@ impl<T: Real> Workspace<T> {
             self.overlaps.closed_before.reserve(3);
             // The survey serves any tilt.
             self.look.take(&gap.tilted(T::zero()), cost)?;
-            self.of = Some(gap.number());
+            self.of = Some(gap.id());
+        } else if !self.look.is_bent_as(gap) {
+            self.passed.clear();
+            self.look.bend(gap);
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use super::PanelSet;
 use crate::gap::{Cost, CurveSample, Gap, Sampler};
 use crate::numerics::chebyshev::{Table, middle};
-use crate::quadrature::panels::panel::{Panel, spans, within};
+use crate::quadrature::panels::panel::{Panel, rise, within};
 use crate::{Body, ContactError, InputError, Interval, ProfileError, Real};
 
 impl<T: Real> PanelSet<T> {
@@ -100,18 +100,8 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// Returns `∫ g dx` between two places.
-    pub fn rise(&self, from: T, to: T) -> T {
-        if to < from {
-            return -self.rise(to, from);
-        }
-        let on = Interval { left: from, right: to };
-        let spans = spans(within(&self.panels, on), on);
-        spans.fold(T::zero(), |sum, (panel, [from, to])| sum + panel.rise(from, to))
-    }
-
-    /// Returns the heights of the gap, before the bodies are turned, at rising places; refuses
-    /// heights that contradict the slopes between them.
+    /// Returns the heights of the gap of the bodies as described, at rising places; refuses heights
+    /// that contradict the slopes between them.
     pub fn heights<const N: usize>(
         &self,
         gap: &Gap<'_, T>,
@@ -121,15 +111,13 @@ impl<T: Real> PanelSet<T> {
         let mut sampler = Sampler::default();
         let mut heights = [T::zero(); N];
         for (height, x) in heights.iter_mut().zip(places) {
-            *height = sampler.height_untilted(gap, x)?;
+            *height = sampler.height_as_described(gap, x)?;
         }
         for (between, heights) in places.windows(2).zip(heights.windows(2)) {
             let (from, to) = (between[0], between[1]);
-            let by_slopes = self.rise(from, to) - self.tilt * (to - from);
-            // Turned, the bodies rise by as much as they are turned.
-            let highest = sampler.highest + self.tilt.abs() * (to - from);
+            let (by_slopes, highest) = (rise(self.as_described(), from, to), sampler.highest);
             let by_heights = heights[1] - heights[0];
-            let span = within(&self.panels, Interval { left: from, right: to });
+            let span = within(self.as_described(), Interval { left: from, right: to });
             let doubt = |sum, panel: &Panel<T>| sum + panel.error * (panel.x[1] - panel.x[0]);
             let open = T::of(8.0) * span.iter().fold(T::zero(), doubt);
             let rises = Rises { between: [from, to], by_heights, by_slopes, highest, open };

@@ -35,8 +35,8 @@ impl<T: Real> PanelSet<T> {
     /// Those of sampling the bodies.
     pub fn probe(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<bool, ContactError<T>> {
         let apart = gap.spacing(on.half_width(), SPACING);
-        let (tilt, mut is_missed) = (self.tilt, false);
-        self.turn(T::zero());
+        let mut is_missed = false;
+        self.take_off();
         loop {
             let (before, mut missed) = (self.cost, Vec::new());
             for i in 0..self.panels.len() {
@@ -50,7 +50,7 @@ impl<T: Real> PanelSet<T> {
             self.cost.heights += self.cost.evaluations - before.evaluations;
             (self.cost.samples, self.cost.evaluations) = (before.samples, before.evaluations);
             if missed.is_empty() {
-                self.turn(tilt);
+                self.add(gap);
                 return Ok(is_missed);
             }
             is_missed = true;

@@ -83,7 +83,7 @@ impl<T: Real> PanelSet<T> {
             self.size = self.size.max(slope);
         }
         let counts = level < LEVELS_OF_A_TIP;
-        let at_limit = if counts { self.missed_at_limits(panel) } else { T::zero() };
+        let at_limit = if counts { self.missed_at_limits(panel, |_| T::zero()) } else { T::zero() };
         // Next to a singularity the slope may be larger, or noisier, than all that counts
         // elsewhere.
         let allowed = (self.tolerance * self.size.max(slope)).max(noise);
@@ -147,13 +147,13 @@ impl<T: Real> PanelSet<T> {
     /// if a loose tolerance accepts them, the next coefficients may fall more slowly, as for a root
     /// hidden behind a smooth part. (Only after neighbours have been compared: larger errors would
     /// hide a mismatch.)
-    pub fn own_up(&mut self) {
+    pub fn own_up(&mut self, gap: &Gap<'_, T>) {
         let is_loose = self.is_loose();
         if !is_loose && self.held.into_iter().all(|held| held.is_none()) {
             return;
         }
         for i in 0..self.panels.len() {
-            let at_limit = self.missed_at_limits(&self.panels[i]);
+            let at_limit = self.missed_at_limits(&self.panels[i], |x| gap.added_slope(x));
             let panel = &mut self.panels[i];
             if at_limit > T::of(64.0) * panel.error {
                 panel.error = at_limit;
@@ -164,11 +164,12 @@ impl<T: Real> PanelSet<T> {
         }
     }
 
-    /// Returns the error of a panel's slope at given limits.
-    fn missed_at_limits(&self, panel: &Panel<T>) -> T {
+    /// Returns the error of a panel's slope at given limits, with something added to the bodies as
+    /// described.
+    fn missed_at_limits(&self, panel: &Panel<T>, added: impl Fn(T) -> T) -> T {
         let at_end = |(held, end): (Option<EndProbe<T>>, T)| {
             let held = held.filter(|held| held.limit == end && !self.coarse)?;
-            Some((panel.value(held.x) - self.tilt - held.slope).abs())
+            Some((panel.value(held.x) - added(held.x) - held.slope).abs())
         };
         self.held.into_iter().zip(panel.x).filter_map(at_end).fold(T::zero(), T::max)
     }

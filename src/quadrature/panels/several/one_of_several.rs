@@ -3,7 +3,7 @@
 use super::super::edge_integrals::{self, EdgeSums};
 use super::super::hilbert_transform::{BATCH, Edges, HilbertTransform};
 use super::super::near_far_sum::{NearFarSum, Seen};
-use super::super::panel::{MANY, Panel, Series, spans, within};
+use super::super::panel::{MANY, Panel, Series, rise, spans, within};
 use super::super::panel_set::PanelSet;
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES, Table, by_size, power_series, size_for};
@@ -51,8 +51,9 @@ pub(super) struct OneOfSeveral<T> {
     pub on: Interval<T>,
     /// Slope of the gap around the contact.
     pub panel_set: PanelSet<T>,
-    /// Place in the contact, and the height of the gap there before the bodies are turned.
-    height: Option<[T; 2]>,
+    /// Place in the contact, the height of the gap there of the bodies as described, and what is
+    /// added.
+    height: Option<[T; 3]>,
     /// Panels of `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
     panels: Vec<Panel<T>>,
     /// Spans still to be resolved, each with the number of its halvings.
@@ -124,11 +125,15 @@ impl<T: Real> OneOfSeveral<T> {
             };
             self.panel_set.extend(gap, span)?;
         }
-        self.panel_set.turn(gap.tilt());
-        if self.height.is_none() {
-            let places = [plain.centre(), plain.centre() + T::of(0.5) * plain.half_width()];
-            self.height = Some([places[0], self.height_at(gap, places)?]);
-        }
+        self.panel_set.add(gap);
+        let [place, height] = match self.height {
+            Some([place, height, _]) => [place, height],
+            None => {
+                let places = [plain.centre(), plain.centre() + T::of(0.5) * plain.half_width()];
+                [places[0], self.height_at(gap, places)?]
+            }
+        };
+        self.height = Some([place, height, gap.with_added(place, T::zero())]);
         Ok(())
     }
 
@@ -150,14 +155,14 @@ impl<T: Real> OneOfSeveral<T> {
     /// Returns the height of the gap at a place in the contact, or at its limits: one height of the
     /// bodies plus the integral of the slope from there.
     pub fn height(&self, x: T) -> T {
-        self.height.map_or(T::zero(), |[place, height]| {
-            height + self.panel_set.tilt * place + self.panel_set.rise(place, x)
+        self.height.map_or(T::zero(), |[place, height, added]| {
+            height + added + rise(&self.panel_set.panels, place, x)
         })
     }
 
     /// Returns the size of the terms in such a height.
     pub fn height_size(&self, height: T) -> T {
-        height.abs() + self.height.map_or(T::zero(), |[_, height]| height.abs())
+        height.abs() + self.height.map_or(T::zero(), |[_, height, _]| height.abs())
     }
 
     /// Multiplies the slope by a weight, and prepares for the conditions on the limits. For a trial
