@@ -176,8 +176,9 @@ impl<T: Real> PanelIntegrator<T> {
         Some(rise(panel_set.as_described(), from, to))
     }
 
-    /// Samples between the nodes of the panels of each contact. Tells whether panels have missed a
-    /// feature and were sampled anew.
+    /// Samples between the nodes of the panels of each contact, and anew the panels that miss a
+    /// feature. Tells whether that moves the contacts: an only one stays if its integrals do, within
+    /// their errors.
     ///
     /// # Errors
     /// Those of sampling the bodies.
@@ -190,9 +191,14 @@ impl<T: Real> PanelIntegrator<T> {
             return self.several.probe(gap);
         }
         let is_turned = self.panel_set.add(gap);
-        let is_missed = self.panel_set.probe(gap, on)?;
-        self.moments = self.moments.filter(|_| !is_missed && !is_turned);
-        Ok(is_missed)
+        let before = self.moments.take().filter(|&(of, _)| of == on && !is_turned);
+        if !self.panel_set.probe(gap, on)? {
+            self.moments = before;
+            return Ok(false);
+        }
+        let after = self.remember(gap, on);
+        let moved = |m: Moments<T>| (m.m0 - after.m0).abs() + (m.m1 - after.m1).abs() - m.error;
+        Ok(!before.is_some_and(|(_, m)| moved(m) <= after.error))
     }
 
     /// Returns the slope over the only contact as a cosine series, and a flag: all of it, not only
