@@ -171,6 +171,8 @@ struct ActiveSet<'s, T: Real> {
     /// Sum of rise and potential in loaded cells: a level, and a slope about the place of the load.
     level: T,
     slope: T,
+    /// Uncertainty of the forces and the gaps last solved for.
+    uncertainty: T,
     /// True if cells were cut since rise and potential were computed.
     changed: bool,
     /// Number of linear systems solved.
@@ -218,6 +220,7 @@ impl<'s, T: Real> ActiveSet<'s, T> {
             length: kernel.map(|kernel| T::of(LENGTH) * kernel.distance()),
             level: T::zero(),
             slope: T::zero(),
+            uncertainty: T::zero(),
             changed: true,
             solves: 0,
             work: 0,
@@ -441,11 +444,11 @@ impl<'s, T: Real> ActiveSet<'s, T> {
             if !self.bears() || self.work > MAX_WORK {
                 break;
             }
-            let rounding = self.solve();
+            self.uncertainty = self.solve();
             let wrong: Vec<_> = (0..self.cells.len())
                 .filter(|&i| {
                     let Cell { loaded, force, .. } = self.cells[i];
-                    if loaded { force < -rounding } else { self.gap(i) < -rounding }
+                    (if loaded { force } else { self.gap(i) }) < -self.uncertainty
                 })
                 .collect();
             let runs = self.runs();

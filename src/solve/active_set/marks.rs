@@ -61,14 +61,16 @@ impl<T: Real> ActiveSet<'_, T> {
                 mark(from - 1, to + 1);
             }
         }
-        // A minimum of the open gap that may close: it is lower than its rise to a neighbour.
+        // A minimum of the open gap that may close: it is lower than its rise to a neighbour, and that
+        // is more than the last solve leaves uncertain.
         let gap = |i: usize| self.gap(i);
         for i in (0..n).filter(|&i| !self.cells[i].loaded) {
             let beside = [i.checked_sub(1), Some(i + 1).filter(|&next| next < n)];
             let beside = beside.map(|j| j.map(|j| (j, gap(j), self.cells[j].loaded)));
             let minimum = |&(_, there, loaded): &(usize, T, bool)| !loaded && there >= gap(i);
             let highest = beside.iter().flatten().fold(gap(i), |high, there| high.max(there.1));
-            if !beside.iter().flatten().all(minimum) || gap(i) > highest - gap(i) {
+            let (rise, least) = (highest - gap(i), gap(i).max(self.uncertainty));
+            if !beside.iter().flatten().all(minimum) || rise < least {
                 continue;
             }
             // In a wider neighbour the gap may be lower than in its middle.
