@@ -177,8 +177,8 @@ impl<T: Real> PanelIntegrator<T> {
     }
 
     /// Samples between the nodes of the panels of each contact, and anew the panels that miss a
-    /// feature. Tells whether that moves the contacts: an only one stays if its integrals do, within
-    /// their errors.
+    /// feature. Tells whether that moves the contacts: an only one stays if its integrals do,
+    /// within their errors.
     ///
     /// # Errors
     /// Those of sampling the bodies.

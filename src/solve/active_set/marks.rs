@@ -61,7 +61,7 @@ impl<T: Real> ActiveSet<'_, T> {
                 mark(from - 1, to + 1);
             }
         }
-        // A minimum of the open gap that may close: it is lower than its rise to a neighbour, and that
+        // A minimum of the open gap that may close: it is lower than its rise to a neighbour, which
         // is more than the last solve leaves uncertain.
         let gap = |i: usize| self.gap(i);
         for i in (0..n).filter(|&i| !self.cells[i].loaded) {

@@ -238,8 +238,8 @@ impl Scene {
 fn contacts_end_at_corners_inside_the_bodies() {
     // A limit at a hollow corner before another corner; an overlap within the error of a held
     // limit; corners that move their limits by shares that differ by many decades; a series of the
-    // pressure that hides a corner; minima of the gap by rounding, for which thousands of cells were
-    // cut next to a corner.
+    // pressure that hides a corner; minima of the gap by rounding, for which thousands of cells
+    // were cut next to a corner.
     solve_all(scenes(100).chain([173, 195, 612, 853, 957, 1425]), Scene::new);
 }
 
