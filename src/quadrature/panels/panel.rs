@@ -99,8 +99,9 @@ impl<T: Real> Panel<T> {
         };
         let rounding = |part: usize| T::of(2.0) * T::epsilon() * size(&added, part);
         let is_open = |part: usize| size(&added[n - 2..n], part) > rounding(part);
-        if terms > MAX_SIZE && (0..T::COMPONENTS).any(is_open) {
-            let middle = T::of(0.5) * left + T::of(0.5) * right;
+        let middle = T::of(0.5) * left + T::of(0.5) * right;
+        let is_long = terms > MAX_SIZE && left < middle && middle < right;
+        if is_long && (0..T::COMPONENTS).any(is_open) {
             for x in [[left, middle], [middle, right]] {
                 let (series, length) = self.over(Interval { left: x[0], right: x[1] });
                 Self { x, series, length, ..*self }.push_with_added(gap, to);
