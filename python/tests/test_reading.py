@@ -442,6 +442,9 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("mixed.csv", b"0.5;1\n1,5;2\n", {}, {"line": 2}, "decimal point, and others with a comma"),
     ("score.csv", b"0;1\n1;1_000\n", {}, {"line": 2}, "are no two numbers"),
     ("infinite.csv", b"0;1\n1;inf\n2;3\n", {}, {"line": 2}, "infinite"),
+    # As C prints them on Windows; a remark does not begin within a number.
+    ("windows.csv", b"0;1\n1;1.#QNAN\n2;-1.#IND00\n3;1.#INF\n4;3\n", {}, {"line": 2}, "not measured, like 2 others"),
+    ("marked.csv", b"0;1\n1;12!\n2;3\n", {}, {"line": 2}, "'1' and '12!' are no two numbers"),
     ("huge.csv", b"0;1\n1;1e999\n2;3\n", {}, {"line": 2}, "infinite"),
     ("hole.csv", b"0;1\n1;NaN\n2;3\n", {}, {"line": 2}, "skip_missing=True"),
     ("nothing.csv", b"0;NaN\n1;NaN\n2;\n", {}, {}, "0 points were measured"),

@@ -111,9 +111,9 @@ def _field(solution: Solution, body: Side | None, deepest: float) -> dict[str, F
     """Returns stresses on a grid below the contacts, which is denser next to the surface."""
     x = solution.centre + _REACH * solution.half_width * np.linspace(-1.0, 1.0, _COLUMNS)
     # If the bodies are apart, all is in one point.
-    reach = min(_REACH, deepest / (solution.half_width or 1.0) - _FIRST)
-    depth = solution.half_width * (_FIRST + reach * np.linspace(0.0, 1.0, _DEPTHS) ** 2)
-    depth = np.minimum(depth, deepest)
+    first, last = _FIRST * solution.half_width, min((_FIRST + _REACH) * solution.half_width, deepest)
+    depth = first + (last - first) * np.linspace(0.0, 1.0, _DEPTHS) ** 2
+    depth[-1] = last
     stress = solution.stress(x, depth[:, None], body=body)
     field = {"field_x": x, "depth": depth, **stress._asdict(), "max_shear": stress.max_shear()}
     for one in materials(solution.contact):

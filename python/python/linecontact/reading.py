@@ -33,8 +33,10 @@ _NAMES = {
 }  # fmt: skip
 # Word in brackets, after a slash or after "in", as in `x [mm]`, `x (mm)`, `x / mm` and `x in mm`.
 _STATED = re.compile(r"(?:[\[(/]|\bin\s)\s*([^][()/\s,]+)\s*(?:[\])]|$|(?=[\s,]))")
-# What begins a remark: the rest of the line is none of the data.
-_REMARK = re.compile(r"[#%!].*")
+# What begins a remark, not within a cell: the rest of the line is none of the data.
+_REMARK = re.compile(r"(?:^|(?<=[\s;,]))[#%!].*")
+# What programs of Windows write where there is no number.
+_NO_NUMBER = re.compile(r"[+-]?1[.,]#(?:[QS]?NAN|IND|INF)0*", re.IGNORECASE)
 
 # Delimiters of columns, in the order in which they are tried; None is white space.
 _DELIMITERS = ("\t", ";", ",", None)
@@ -313,6 +315,8 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
 
 def _number(cell: str) -> float | None:
     """Returns the number in a cell, NaN for one that was not measured, or None."""
+    if _NO_NUMBER.fullmatch(cell):
+        return float("nan")
     try:
         return None if "_" in cell else float(cell.replace(",", ".").replace("−", "-") or "nan")
     except ValueError:
