@@ -76,7 +76,7 @@ pub(crate) struct GapId<T> {
     cut: Option<[T; 2]>,
 }
 
-/// What is added to the gap of the bodies as described: a tilt, and a bend by its number.
+/// Tilt and bend of a gap, the bend by its number.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Added<T> {
     tilt: T,
@@ -339,37 +339,32 @@ impl<'b, T: Real> Gap<'b, T> {
         self.bend.as_ref().map(|(bend, ..)| &**bend)
     }
 
-    /// Returns the bodies before they are bent.
-    pub(crate) fn before_bend(&self) -> Self {
-        Self { bend: None, ..self.clone() }
-    }
-
     /// Returns the bodies as they are described, neither turned nor bent.
     pub(crate) fn as_described(&self) -> Self {
-        Self { tilt: T::zero(), ..self.before_bend() }
+        Self { tilt: T::zero(), bend: None, ..self.clone() }
     }
 
     pub(crate) fn tilt(&self) -> T {
         self.tilt
     }
 
-    /// Returns what is added to the gap of the bodies as described.
+    /// Returns the tilt, and the number of the bend.
     pub(crate) fn added(&self) -> Added<T> {
         Added { tilt: self.tilt, bend: self.bend.as_ref().map(|(.., number)| *number) }
     }
 
-    /// Returns what a bend adds to the slope (0) or to the height (1) of the gap at x.
+    /// Returns the part of a bend in the slope (0) or in the height (1) of the gap at x.
     pub(crate) fn bend_at<const N: usize>(&self, which: [usize; N], x: T) -> [T; N] {
         let Some((bend, share, _)) = &self.bend else { return [T::zero(); N] };
         bend.values(which, x).map(|of| -*share * of)
     }
 
-    /// Returns the slope that is added to that of the bodies as described.
+    /// Returns the slope added to the bodies as described by their tilt and their bend.
     pub(crate) fn added_slope(&self, x: T) -> T {
         self.tilt + self.bend_at([0], x)[0]
     }
 
-    /// Returns the height of the gap at x, given that of the bodies as described.
+    /// Returns the height of the gap at x, given the height between the bodies as described.
     pub(crate) fn with_added(&self, x: T, height: T) -> T {
         self.turned(x, height + self.bend_at([1], x)[0])
     }

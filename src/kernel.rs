@@ -166,7 +166,7 @@ impl<T: Real> Kernel<'_, T> {
 /// c and a compliance at its wavenumber: of a pressure that is corrected, of r, and the most of any
 /// pressure that reach r.
 ///
-/// So few terms as the first number leave a correction of 1e-4 to 1e-6 (found by trial). On a thin
+/// The first number leaves a correction of 1e-4 to 1e-6 (found by trial). On a thin
 /// layer that is a share of what the kernel takes away, and more are needed for the same share of
 /// the compliance that is left: the error falls like `exp(-4 c n/2L)`. Coefficients beyond the most
 /// meet only wavenumbers at which K - 1 is below rounding, or terms of K that are.

@@ -66,7 +66,7 @@ pub(crate) struct Survey<T> {
     reach: Option<[T; 2]>,
     /// Stretch where the gap was last seen to be convex.
     stretch: Option<Stretch<T>>,
-    /// True if the bodies provably touch in one interval under the load of the last refinement.
+    /// True if the bodies seem to touch in one interval under the load of the last refinement.
     is_one: bool,
     /// Number of evaluations since the first look began.
     spent: usize,
@@ -240,7 +240,7 @@ impl<T: Real> Survey<T> {
                 Asked::Turning(_) => Interval { left: self.range[0], right: self.range[1] },
                 _ => on,
             };
-            self.is_one = self.prove(gap, touched, load, cost)?;
+            self.is_one = self.sees_one(gap, touched, load, cost)?;
             if self.is_one {
                 break;
             }
@@ -376,7 +376,7 @@ impl<T: Real> Survey<T> {
         (self.stretch, self.reach) = (None, None);
     }
 
-    /// Sets what is known of the gap between each node and the next.
+    /// Sets the uncertainty of the gap between each node and the next.
     fn measure(&mut self) {
         let (nodes, [first, last], mut panels) = (&mut self.nodes, self.range, [[0; 2]; 2]);
         for i in 1..nodes.len() {

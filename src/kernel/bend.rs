@@ -18,8 +18,8 @@ const WIDTH: f64 = 1.4;
 /// next step, and the samples beside them, lie there.
 const MARGIN: f64 = 0.25;
 
-/// Distance of the places between which the bend is about a cubic, by that of the nearest
-/// singularity, and by that of the contacts.
+/// Distance of the places between which the bend is about a cubic, by the distances of the nearest
+/// singularity and of the contacts.
 const BETWEEN: [f64; 2] = [0.25, 0.5];
 
 /// Bend by the pressures in some intervals.
@@ -78,10 +78,7 @@ impl<'b, T: Real> Bend<'b, T> {
     /// Lists places over a range, by rising x, between which the bend is about a cubic.
     pub fn places(&self, [from, to]: [T; 2]) -> impl Iterator<Item = T> + use<'_, T> {
         let on = self.on;
-        // Contacts far too wide on the way are no reason for more places than there is room.
-        let width = on.right - on.left;
-        let least = T::of(BETWEEN[0]) * self.kernel.distance().min(T::of(0.5) * width);
-        let least = least.max(width / T::count(super::MAX_TERMS));
+        let least = T::of(BETWEEN[0]) * self.kernel.distance().min(on.half_width());
         let width = move |x: T| least.max(T::of(BETWEEN[1]) * (on.left - x).max(x - on.right));
         // Outward from the panels.
         let left = std::iter::successors(Some(on.left), move |&x| Some(x - width(x)));

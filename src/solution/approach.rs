@@ -289,7 +289,7 @@ impl<'s, T: Real> Approaching<'s, T> {
     /// height there above that at its left limit.
     fn first_before_bend(&self) -> Result<(usize, T), ContactError<T>> {
         let Solved { gap, found, .. } = self.solved;
-        let before = gap.before_bend();
+        let before = gap.as_described();
         let before = &before.tilted(found.tilt);
         let (mut integrator, mut sampler) = (Engine::new(&Panels::FULL)?, Sampler::default());
         let mut first: Option<(usize, T, T)> = None;

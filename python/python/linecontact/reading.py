@@ -35,7 +35,7 @@ _NAMES = {
 _STATED = re.compile(r"(?:[\[(/]|\bin\s)\s*([^][()/\s,]+)\s*(?:[\])]|$|(?=[\s,]))")
 # What begins a remark, not within a cell: the rest of the line is none of the data.
 _REMARK = re.compile(r"(?:^|(?<=[\s;,]))[#%!].*")
-# What programs of Windows write where there is no number.
+# Marks of Windows programs for a number that is none.
 _NO_NUMBER = re.compile(r"[+-]?1[.,]#(?:[QS]?NAN|IND|INF)0*", re.IGNORECASE)
 
 # Delimiters of columns, in the order in which they are tried; None is white space.

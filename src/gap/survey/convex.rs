@@ -53,16 +53,29 @@ impl<T: Real> Survey<T> {
     /// Tells whether the bodies touch in one interval under any load: the gap is seen to be convex
     /// everywhere.
     pub fn is_convex(&self) -> bool {
-        self.stretch.is_some_and(|stretch| stretch.nodes == [0, self.nodes.len() - 1])
+        let whole = [0, self.nodes.len() - 1];
+        self.bend.is_none() && self.stretch.is_some_and(|stretch| stretch.nodes == whole)
     }
 
-    /// Tells whether a load F/κ that presses the bodies together on an interval touches nothing
-    /// else, because the gap is convex around it. Halves panels as long as more points may prove
-    /// it.
+    /// Tells whether a load F/κ that presses the bodies together on an interval provably touches
+    /// nothing else. Between its places a bend is known, but not within bounds.
     ///
     /// # Errors
     /// As [`take`](Self::take).
     pub fn prove(
+        &mut self,
+        gap: &Gap<'_, T>,
+        on: Interval<T>,
+        load: T,
+        cost: &mut Cost,
+    ) -> Result<bool, ContactError<T>> {
+        Ok(self.bend.is_none() && self.sees_one(gap, on, load, cost)?)
+    }
+
+    /// Tells whether a load F/κ that presses the bodies together on an interval seems to touch
+    /// nothing else, because the gap is convex around it. Halves panels as long as more points may
+    /// show it.
+    pub(super) fn sees_one(
         &mut self,
         gap: &Gap<'_, T>,
         on: Interval<T>,

@@ -142,7 +142,8 @@ impl<T: Real> Survey<T> {
         let highest = self.nodes.iter().fold(T::zero(), |most, node| most.max(node.size));
         let cancelled = T::of(64.0) * T::epsilon() * highest;
         let jumps_down = |node: &Node<T>| node.slopes[1] < node.slopes[0] - node.rounding(node);
-        !self.nodes.iter().any(jumps_down)
+        self.bend.is_none()
+            && !self.nodes.iter().any(jumps_down)
             && !self.nodes.windows(2).any(|pair| {
                 let [from, to] = [&pair[0], &pair[1]];
                 let width = to.x - from.x;

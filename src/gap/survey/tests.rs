@@ -3,10 +3,12 @@
 use super::convex::{Shape as Bend, convex_stretches};
 use super::*;
 use crate::gap::Shape;
+use crate::kernel::{Bend as Bent, Formula, Kernel, RegularKernel, Spread};
 use crate::profile::{Curve, CurvePoint, Flat};
 use crate::search::Newton as Inversion;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 /// Number of a node outside the contact.
 const I: usize = 1;
@@ -78,6 +80,42 @@ fn nothing_is_proved_beside_the_unknown() {
         let inside = survey.nodes.partition_point(|node| node.x < 0.0);
         survey.nodes[inside].slopes[0] += 1e-6;
         assert!(!proves(survey, gap) && !survey.is_convex());
+    });
+}
+
+/// A kernel that bends nothing.
+struct Nothing;
+
+impl RegularKernel<f64> for Nothing {
+    fn slope(&self, _x: f64, _s: f64) -> f64 {
+        0.0
+    }
+
+    fn height(&self, _x: f64, _s: f64) -> f64 {
+        0.0
+    }
+
+    fn nearest_singularity(&self) -> f64 {
+        1.0
+    }
+}
+
+/// No bounds are known for a bend between the places of a survey.
+#[test]
+fn nothing_is_proved_of_bent_bodies() {
+    let formula = Some(Formula::Owned(Arc::new(Nothing)));
+    let kernel = Kernel { table: None, formula, row: None, is_of_bodies: false };
+    let pressure = Spread { on: contact(), q: vec![1.0] };
+    surveyed(|gap, survey| {
+        assert!(survey.bulges());
+        let bent = gap.bent(Bent::new(&kernel, std::slice::from_ref(&pressure)), 1.0);
+        survey.bend(&bent);
+        assert!(survey.is_bent_as(&bent) && !survey.is_bent_as(gap) && !survey.bulges());
+        let mut cost = Cost::default();
+        assert!(!survey.prove(&bent, contact(), 0.02, &mut cost).unwrap());
+        assert!(!survey.is_convex() && cost.heights == 0);
+        survey.bend(gap);
+        assert!(survey.bulges() && survey.prove(gap, contact(), 0.02, &mut cost).unwrap());
     });
 }
 

@@ -77,8 +77,8 @@ impl<T: Real> Panel<T> {
         self.length = 2;
     }
 
-    /// Appends the panel with what is added to the gap of the bodies as described, in parts where a
-    /// bend takes more terms than one panel has.
+    /// Appends the panel, turned and bent as the gap is, in parts where a bend takes more terms
+    /// than one panel has.
     pub fn push_with_added(&self, gap: &Gap<'_, T>, to: &mut Vec<Self>) {
         let Some(bend) = gap.bend() else {
             let mut turned = *self;
@@ -99,9 +99,8 @@ impl<T: Real> Panel<T> {
         };
         let rounding = |part: usize| T::of(2.0) * T::epsilon() * size(&added, part);
         let is_open = |part: usize| size(&added[n - 2..n], part) > rounding(part);
-        let middle = T::of(0.5) * left + T::of(0.5) * right;
-        let is_long = terms > MAX_SIZE && left < middle && middle < right;
-        if is_long && (0..T::COMPONENTS).any(is_open) {
+        if terms > MAX_SIZE && (0..T::COMPONENTS).any(is_open) {
+            let middle = T::of(0.5) * left + T::of(0.5) * right;
             for x in [[left, middle], [middle, right]] {
                 let (series, length) = self.over(Interval { left: x[0], right: x[1] });
                 Self { x, series, length, ..*self }.push_with_added(gap, to);

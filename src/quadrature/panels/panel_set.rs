@@ -90,8 +90,7 @@ pub(crate) struct PanelSet<T> {
     /// Slopes of both bodies at the nodes of the last panel.
     slopes: [Coeffs<T>; 2],
     derivative_sizes: Vec<T>,
-    /// What is added to the slope of every panel, and the panels of the bodies as described, if
-    /// there is anything.
+    /// Tilt and bend of every panel, and the panels of the bodies as described, if there is either.
     added: Added<T>,
     described: Vec<Panel<T>>,
 }
@@ -229,14 +228,11 @@ impl<T: Real> PanelSet<T> {
                 panel.push_with_added(gap, &mut self.panels);
             }
         }
-        // On a thin layer far more may be added than there was.
-        let ends = self.panels.iter().flat_map(Panel::at_ends).map(|slope| slope.abs());
-        self.size = ends.filter(|_| added.bend.is_some()).fold(self.size, T::max);
         self.added = added;
         true
     }
 
-    /// Takes off what was added.
+    /// Takes off tilt and bend.
     fn take_off(&mut self) {
         if !self.described.is_empty() {
             std::mem::swap(&mut self.panels, &mut self.described);

@@ -164,8 +164,7 @@ impl<T: Real> PanelSet<T> {
         }
     }
 
-    /// Returns the error of a panel's slope at given limits, with something added to the bodies as
-    /// described.
+    /// Returns the error of a panel's slope at given limits, with the slope added by tilt and bend.
     fn missed_at_limits(&self, panel: &Panel<T>, added: impl Fn(T) -> T) -> T {
         let at_end = |(held, end): (Option<EndProbe<T>>, T)| {
             let held = held.filter(|held| held.limit == end && !self.coarse)?;

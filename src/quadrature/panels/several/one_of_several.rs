@@ -51,8 +51,8 @@ pub(super) struct OneOfSeveral<T> {
     pub on: Interval<T>,
     /// Slope of the gap around the contact.
     pub panel_set: PanelSet<T>,
-    /// Place in the contact, the height of the gap there of the bodies as described, and what is
-    /// added.
+    /// Place in the contact, the height of the gap there of the bodies as described, and the height
+    /// added by tilt and bend.
     height: Option<[T; 3]>,
     /// Panels of `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
     panels: Vec<Panel<T>>,
