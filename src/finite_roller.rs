@@ -18,6 +18,7 @@
 use crate::contact::check_given;
 use crate::gap::{Gap, Sampler, Shape};
 use crate::numerics::CompensatedSum;
+use crate::profile::finite;
 use crate::real::same;
 use crate::search::{Bracket, Newton, TryFindError, try_find_with_slope};
 use crate::{
@@ -126,7 +127,7 @@ pub struct RollerState<T> {
     /// symmetric. Force/length and force in the first row, force and force × length in the second.
     pub stiffness: [[T; 2]; 2],
     /// Bound of the relative error of the load that the table leaves: its own
-    /// [error](SpringTable::error), and that of all slices [below its first
+    /// [error](SpringTable::error), and that of the slices that bear less than its [least
     /// load](SpringTable::touch_error). Neither the number of slices nor the model is in it.
     pub error: T,
     /// Slices, by rising z.
@@ -143,8 +144,8 @@ impl<T: Real> FiniteRoller<T> {
     ///
     /// # Errors
     /// [`InputError::InvalidRoller`]; [`InputError::InvalidRelief`] for a relief that is negative
-    /// somewhere and nowhere positive; [`InputError::Profile`] for a faulty relief;
-    /// [`SolveError::OutsideBodies`] for one that is too short; [`SolveError::Inversion`].
+    /// somewhere and nowhere positive; [`InputError::Relief`] for a faulty one, or one that is too
+    /// short.
     pub fn new(
         table: SpringTable<T>,
         length: T,
@@ -155,17 +156,23 @@ impl<T: Real> FiniteRoller<T> {
         if !(is_count && length.is_finite() && length / T::count(slices) > T::zero()) {
             return Err(InputError::InvalidRoller { length, slices, most: MAX_SLICES }.into());
         }
+        let in_relief = |error| {
+            let source = match error {
+                ContactError::Input(InputError::Profile { source, .. }) => source.into(),
+                error => error,
+            };
+            InputError::Relief { source: Box::new(source) }
+        };
         let newton = Newton::DEFAULT;
-        let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(relief), &newton)?;
+        let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(relief), &newton).map_err(in_relief)?;
         let (mut sampler, n) = (Sampler::default(), T::count(slices));
         let slice = |i| {
-            let (x, range) = (length * ((T::count(2 * i + 1) - n) / (n + n)), gap.range());
-            if x < range[0] || x > range[1] {
-                return Err(SolveError::OutsideBodies { x, range }.into());
-            }
-            Ok([x, sampler.height(&gap, x)?])
+            let (z, [from, to]) = (length * ((T::count(2 * i + 1) - n) / (n + n)), gap.range());
+            let must = "within the relief: describe the relief up to there";
+            finite("the middle z of a slice", z, from <= z && z <= to, must)?;
+            Ok([z, sampler.height(&gap, z)?])
         };
-        let slices = (0..slices).map(slice).collect::<Result<Vec<_>, ContactError<T>>>()?;
+        let slices = (0..slices).map(slice).collect::<Result<Vec<_>, _>>().map_err(in_relief)?;
         let is_beyond = !slices.iter().any(|[_, height]| *height > T::zero());
         if let Some(&[z, height]) = slices.iter().find(|at| is_beyond && at[1] < T::zero()) {
             return Err(InputError::InvalidRelief { z, height }.into());

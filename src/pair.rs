@@ -91,8 +91,10 @@ pub struct Wrench<T> {
 /// the flank of a groove, is no case for a pair.
 ///
 /// As for a [`Contact`], body 1 is below and body 2 above it, in the frame of body 1: each surface
-/// is a curve without a turn, and the material of body 2 is above the curve as it stands. So a
-/// round body that rolls keeps its angle, with its origin in the middle: its turn changes nothing.
+/// is a curve without a turn, with the material of body 2 above it. A body that is turned until its
+/// curve runs back, or further, upside down, is refused: of a cam that goes round, each step takes
+/// the side that faces the follower, as a body of its own. A round body that rolls keeps its angle,
+/// with its origin in the middle: its turn changes nothing.
 /// A contact that reaches an end of the bodies is an error, and features narrower than those that
 /// [`Contact::solve`] sees are not seen unless a [`resolution`](Self::resolution) asks for them.
 ///
@@ -183,8 +185,10 @@ impl<'b, T: Real> Pair<'b, T> {
     /// It is continuous where bodies touch, and where contacts appear or merge.
     ///
     /// # Errors
-    /// [`InputError::Pose`] if body 2 turns back in the frame of body 1, or stands nowhere; the
-    /// errors of [`Contact::solve`] with a given approach.
+    /// [`InputError::Pose`] if body 2 turns back or is upside down in the frame of body 1, or stands
+    /// nowhere; also if no contact is found there, or one as wide as a reference or a layer bears no
+    /// more, with the error of [`Contact::solve`] as its source. Errors of the materials, of body 1
+    /// and of the resolution, which no pose mends, are those of a [`Contact`].
     pub fn at(&mut self, lower: Pose<T>, upper: Pose<T>) -> Result<Wrench<T>, ContactError<T>> {
         Ok(self.pressed(lower, upper)?.wrench)
     }
@@ -223,14 +227,19 @@ impl<'b, T: Real> Pair<'b, T> {
     }
 
     fn pressed(&mut self, lower: Pose<T>, upper: Pose<T>) -> Result<Pressed<T>, ContactError<T>> {
+        use InputError::{InvalidReference, LayerTooThin, Profile, Shape};
         let seen = upper.seen_from(&lower);
         let poses = lower.check().and(upper.check()).map_err(ContactError::from);
         let found = poses.and_then(|()| self.pressed_in_frame(&seen));
         let mut found = found.map_err(|error| match error {
-            ContactError::Input(
-                InputError::Shape(source) | InputError::Profile { body: Body::Upper, source },
+            ContactError::Solve(_)
+            | ContactError::Input(
+                Shape(_)
+                | Profile { body: Body::Upper, .. }
+                | InvalidReference { .. }
+                | LayerTooThin { .. },
             ) => {
-                let Pose { x, y, angle } = seen;
+                let (Pose { x, y, angle }, source) = (seen, Box::new(error));
                 InputError::Pose { x, y, angle, source }.into()
             }
             error => error,
@@ -251,6 +260,11 @@ impl<'b, T: Real> Pair<'b, T> {
         };
         let [lower, body] = self.bodies.each_ref().map(|shape| shape.profile());
         let placement = Placement::default().rotated(seen.angle).shifted(seen.x, seen.y);
+        let [from, to] = body.domain().map(|k| body.at(k));
+        let is_turned_over = (to.x > from.x) != (placement.point(to).x > placement.point(from).x);
+        let must = "one at which body 2 is not upside down: its material would be below its curve; \
+                    describe the side of it that faces body 1";
+        finite("the angle of body 2", seen.angle, !is_turned_over, must)?;
         let (smooth, joined);
         let upper: &dyn ParametricProfile<T> = match Piece::first_of(body)? {
             None => {

@@ -9,11 +9,13 @@
 //! powers of the approach.
 
 use crate::contact::check_given;
-use crate::real::same;
+use crate::real::{by_size, same};
 use crate::solution::Approaching;
 use crate::{
-    Contact, ContactError, Control, EvaluationError, InputError, Real, References, Solution, Solver,
+    Contact, ContactError, Control, EvaluationError, InputError, Real, References, Solution,
+    SolveError, Solver,
 };
+use std::collections::VecDeque;
 
 /// Largest number of points of a table.
 const MAX_TABLE: usize = 4096;
@@ -137,15 +139,17 @@ fn checked<'de, T: Real + serde::Deserialize<'de>, D: serde::Deserializer<'de>>(
 impl<T: Real> SpringTable<T> {
     /// Computes the table over a range of loads per unit length, from the least to the largest.
     ///
-    /// The tolerance is a share of the load, the half-width and the peak, whichever is worst.
-    /// Between points as close as a millionth of the load, as next to a load under which a corner
-    /// is reached, it may not be met: [`error`](Self::error) returns the error found.
+    /// The tolerance is a share of the load, the half-width and the peak, whichever is worst; of
+    /// smooth bodies 1e-14 is reached. Between points as close as a millionth of the load, as next
+    /// to a load under which a corner is reached, it may not be met: [`error`](Self::error) returns
+    /// the error found.
     ///
     /// # Errors
     /// [`InputError::InvalidLoad`] for a range that is not positive and rising;
-    /// [`InputError::InvalidTolerance`] for a tolerance that is not above 0 and below 1; the
-    /// errors of [`Contact::solve`], [`Solution::approach`], [`Solution::stiffness`] and
-    /// [`Solution::peak`]; [`SolveError::Falls`](crate::SolveError::Falls).
+    /// [`InputError::InvalidTolerance`] for a tolerance that is not above 0 and below 1;
+    /// [`SolveError::ToleranceNotReached`] for one that 4096 points do not reach, with the error
+    /// that they leave; the errors of [`Contact::solve`], [`Solution::approach`],
+    /// [`Solution::stiffness`] and [`Solution::peak`]; [`SolveError::Falls`].
     pub fn new(
         contact: &Contact<'_, T>,
         references: &References<T>,
@@ -180,10 +184,11 @@ impl<T: Real> SpringTable<T> {
             };
             touch_error = touch_error.max(T::of(SAFETY_FACTOR) * off);
         }
-        let mut table =
-            Self { points: vec![first], error: zero, stiffness_error: zero, touch_error };
-        let mut pending = vec![[first, last]];
-        while let Some([from, to]) = pending.pop() {
+        let points = vec![first, last];
+        let mut table = Self { points, error: zero, stiffness_error: zero, touch_error };
+        // Halves wait until all wider intervals are tested: what the table has of points is spread.
+        let mut pending = VecDeque::from([[first, last]]);
+        while let Some([from, to]) = pending.pop_front() {
             let ratio = to.point.load / from.point.load;
             let place = |share: f64| from.point.load * ratio.powf(T::of(share));
             let (middle, beside) = (solve(place(0.5))?, solve(place(STEEPEST))?);
@@ -194,14 +199,19 @@ impl<T: Real> SpringTable<T> {
             let [error, stiffness_error] =
                 [0, 1].map(|of| T::of(SAFETY_FACTOR) * off[0][of].max(off[1][of]));
             let is_apart = ratio > T::one() + T::of(LEAST_STEP_OF_TABLE);
-            if error > tolerance && is_apart && table.points.len() + pending.len() < MAX_TABLE {
-                pending.extend([[middle, to], [from, middle]]);
+            if error > tolerance && is_apart && table.points.len() < MAX_TABLE {
+                pending.extend([[from, middle], [middle, to]]);
+                table.points.push(middle);
                 continue;
             }
-            table.points.push(to);
             table.error = table.error.max(error);
             table.stiffness_error = table.stiffness_error.max(stiffness_error);
         }
+        let (points, reached) = (table.points.len(), table.error);
+        if reached > tolerance && points == MAX_TABLE {
+            return Err(SolveError::ToleranceNotReached { tolerance, reached, points }.into());
+        }
+        table.points.sort_by(|one, other| by_size(one.point.load, other.point.load));
         Ok(table)
     }
 
@@ -222,9 +232,13 @@ impl<T: Real> SpringTable<T> {
         self.stiffness_error
     }
 
-    /// Returns the largest error of the load below the first point, as a share of the load of this
-    /// point: twice the observed error, or more than 1 where corners do not hold a lighter load.
-    /// There the state goes to zero as powers of the approach.
+    /// Returns the error of the table near first touch, between an approach of zero and the first
+    /// point, at δ₁ with the least load F₁. There the table has `F₁ (δ/δ₁)ⁿ`, with the exponent n of
+    /// the first point, in place of the true load F(δ). The error is the largest `|F₁ (δ/δ₁)ⁿ - F|`
+    /// as a share of F₁, a number without unit: with 0.002 and a least load of 10 N/mm the loads up
+    /// to there are exact to 0.02 N/mm. It is twice the largest error at 1/2, 1/4 and 1/20 of F₁;
+    /// more than 1, so nothing is known, where corners do not hold so light a load. A smaller least
+    /// load makes it slowly smaller.
     pub fn touch_error(&self) -> T {
         self.touch_error
     }

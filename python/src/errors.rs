@@ -50,7 +50,13 @@ macro_rules! nested {
         }
     )*};
 }
-nested!(ProfileError, SearchError);
+nested!(ProfileError, SearchError, ContactError);
+
+impl<T: Named> Named for Box<T> {
+    fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        (**self).named(py)
+    }
+}
 
 impl<T: Named> Named for [T; 2] {
     fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
@@ -160,6 +166,7 @@ table! {
     NoMaterials {};
     InvalidReference { length };
     InvalidRelief { z, height };
+    Relief { source };
     InvalidRoller { length, slices, most };
     InvalidFriction { coefficient };
     InvalidSlipFriction { friction };
@@ -196,6 +203,7 @@ table! {
     InJump { wanted, load, below, above };
     ApproachTooLarge { wanted, approach, load };
     Falls { quantity, load, rate };
+    ToleranceNotReached { tolerance, reached, points };
     LoadBeyondBodies { load, at, ends };
     LoadBeyondSlices { load, at, ends };
     OneSlice { z };

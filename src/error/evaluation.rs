@@ -97,9 +97,7 @@ pub enum EvaluationError<T: Real> {
         why: &'static str,
     },
     /// The number of places for pressures is not the number of abscissae.
-    #[error(
-        "{x} abscissae, but {pressures} places for pressures: give as many of the one as of the other"
-    )]
+    #[error("{x} abscissae, but {pressures} places for pressures: give as many of both")]
     LengthMismatch {
         /// Number of abscissae.
         x: usize,

@@ -4,7 +4,7 @@ use super::ReferenceError;
 use super::advice::{along, lost_digits};
 use crate::profile::SplineError;
 use crate::rounded::{apart, six, span};
-use crate::{Body, Edge, Interval, PiecewiseError, ProfileError, Real};
+use crate::{Body, ContactError, Edge, Interval, PiecewiseError, ProfileError, Real};
 use thiserror::Error;
 
 /// Reason why the input is invalid: a body, an edge, a load or a setting. The same call fails
@@ -32,11 +32,11 @@ pub enum InputError<T: Real> {
         /// Fault of the profile.
         source: ProfileError<T>,
     },
-    /// Seen from body 1 of a [`Pair`](crate::Pair), body 2 is no body: it turns back, or its place
-    /// is not finite.
+    /// The bodies of a [`Pair`](crate::Pair) bear no known force where they stand: body 2 turns back
+    /// or is upside down, its place is not finite, or the contact is not found.
     #[error(
-        "seen from body 1, body 2 is at x = {}, y = {}, turned by {}: {source}",
-        six(*x), six(*y), six(*angle)
+        "seen from body 1, body 2 is at x = {}, y = {}, turned by {}: {}",
+        six(*x), six(*y), six(*angle), source.to_string()
     )]
     Pose {
         /// Place of the origin of body 2 along body 1: a length.
@@ -45,8 +45,9 @@ pub enum InputError<T: Real> {
         y: T,
         /// Angle from body 1 to body 2, counter-clockwise: radians.
         angle: T,
-        /// Fault of body 2 as it stands.
-        source: ProfileError<T>,
+        /// Fault of body 2 as it stands, or of the contact.
+        // Raw: as a source, it would ask for the trait that it helps to define.
+        r#source: Box<ContactError<T>>,
     },
     /// The two bodies have no `x` in common.
     #[error(
@@ -204,10 +205,7 @@ pub enum InputError<T: Real> {
         slopes: [T; 2],
     },
     /// The tolerance of the panels is negative, one or more, or NaN.
-    #[error(
-        "tolerance {tolerance} is out of range: use 0 <= tolerance < 1 (SpringTable: > 0)",
-        tolerance = six(*tolerance)
-    )]
+    #[error("tolerance {} is out of range: use 0 <= tolerance < 1 (tables: > 0)", six(*tolerance))]
     InvalidTolerance {
         /// The tolerance as given.
         tolerance: T,
@@ -325,6 +323,12 @@ pub enum InputError<T: Real> {
         z: T,
         /// Relief there, a length.
         height: T,
+    },
+    /// The relief of a roller is no profile, or does not reach the middles of the outermost slices.
+    #[error("the relief of the roller: {}", source.to_string())]
+    Relief {
+        /// Fault of the relief.
+        r#source: Box<ContactError<T>>,
     },
     /// The coefficient of friction is not finite.
     #[error("the coefficient of friction is {}: it must be finite", six(*coefficient))]

@@ -5,6 +5,8 @@ use crate::Real;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 /// Reason why a file holds no scene, or why a scene cannot be written.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -30,6 +32,28 @@ impl SceneError {
     }
 }
 
+/// Forms of a control.
+const CONTROLS: &str = "; a control is { load = F }, { half_width = L }, { peak_pressure = p }, { moment = { load = F, \
+    moment = M, about = x } }, { centre_of_pressure = { load = F, at = x } }, or { approach = { approach = d, \
+    references = { x = x, lower = { depth = h }, upper = { disc = R } } } }";
+
+fn fault(line: Option<usize>, field: String, said: &str) -> SceneError {
+    let forms = if field.starts_with("controls") { CONTROLS } else { "" };
+    SceneError { line, field, reason: format!("{said}{forms}") }
+}
+
+/// Finds a number that is not finite, with the name and the place of it.
+fn not_finite(name: &str, value: &Spanned<DeValue<'_>>) -> Option<(String, usize)> {
+    match value.get_ref() {
+        DeValue::Float(number) if !number.as_str().parse().is_ok_and(f64::is_finite) => {
+            Some((name.to_owned(), value.span().start))
+        }
+        DeValue::Array(all) => all.iter().find_map(|one| not_finite(name, one)),
+        DeValue::Table(all) => all.iter().find_map(|(key, one)| not_finite(key.get_ref(), one)),
+        _ => None,
+    }
+}
+
 /// Names the fields that lead to a fault.
 fn field(path: &serde_path_to_error::Path) -> String {
     let path = path.to_string();
@@ -44,14 +68,19 @@ impl<T: Real + DeserializeOwned> Scene<T> {
     /// [`SceneError`], with line and field: for text that is not TOML, unknown or missing fields,
     /// and bodies that cannot be built.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
-        let fault = |field: String, error: &toml::de::Error| SceneError {
-            line: error.span().map(|span| 1 + text[..span.start].matches('\n').count()),
-            field,
-            reason: error.message().to_owned(),
+        let line = |place: usize| Some(1 + text[..place].matches('\n').count());
+        let fault = |field, error: &toml::de::Error| {
+            fault(error.span().and_then(|span| line(span.start)), field, error.message())
         };
-        let file = toml::Deserializer::parse(text).map_err(|error| fault(String::new(), &error))?;
-        serde_path_to_error::deserialize(file)
-            .map_err(|error| fault(field(error.path()), error.inner()))
+        let file = DeTable::parse(text).map_err(|error| fault(String::new(), &error))?;
+        let mut all = file.get_ref().iter();
+        let infinite = all.find_map(|(key, value)| not_finite(key.get_ref(), value));
+        let scene = serde_path_to_error::deserialize(toml::Deserializer::from(file))
+            .map_err(|error| fault(field(error.path()), error.inner()))?;
+        // Bodies and stiffnesses name their values themselves.
+        infinite.map_or(Ok(scene), |(name, place)| {
+            Err(self::fault(line(place), name, "the number is not finite"))
+        })
     }
 
     /// Reads a scene from JSON.
@@ -62,7 +91,7 @@ impl<T: Real + DeserializeOwned> Scene<T> {
         let fault = |field: String, error: &serde_json::Error| {
             let said = error.to_string();
             let reason = said.rsplit_once(" at line ").map_or(&*said, |(reason, _)| reason);
-            SceneError { line: Some(error.line()), field, reason: reason.to_owned() }
+            fault(Some(error.line()), field, reason)
         };
         let mut file = serde_json::Deserializer::from_str(text);
         let scene = serde_path_to_error::deserialize(&mut file)

@@ -15,6 +15,12 @@ fn interval<T: Real>(on: &Interval<T>, f: &mut Formatter<'_>) -> Result {
     write!(f, "[{left}, {right}]")
 }
 
+/// Returns a place, or zero if it is one to rounding, beside this length: those of largest values
+/// have half of the digits.
+fn place<T: Real>(x: T, length: T) -> T {
+    if x.abs() > T::of(8.0) * T::epsilon().sqrt() * length { x } else { T::zero() }
+}
+
 /// Writes contacts, load, largest pressure and quality in three lines, and a warning of bodies that
 /// [conform](Solution::conformity) or else [are steep](Solution::is_steep); with six digits, or as
 /// many as the precision (`{:.3}`).
@@ -22,7 +28,9 @@ impl<T: Real> Display for Solution<'_, T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let contacts = self.intervals();
         if self.is_apart() {
-            let [by, x] = [self.separation(), self.a()].map(|length| rounded(length, f));
+            let [from, to] = self.solved().gap.range();
+            let x = place(self.a(), T::of(0.5) * (to - from));
+            let [by, x] = [self.separation(), x].map(|length| rounded(length, f));
             return write!(f, "apart by {by} at x = {x}, without load");
         }
         match contacts.len() {
@@ -40,7 +48,7 @@ impl<T: Real> Display for Solution<'_, T> {
         match self.peak() {
             Ok(peak) => {
                 f.write_str(", largest pressure ")?;
-                peak.fmt(f)?;
+                Peak { x: place(peak.x, self.hull().half_width()), ..peak }.fmt(f)?;
             }
             Err(ContactError::Evaluation(EvaluationError::Singular { x })) => {
                 write!(f, ", pressure infinite at x = {}", rounded(x, f))?;

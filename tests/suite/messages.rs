@@ -330,6 +330,32 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["-0.25 at z = 3.5", "flip"],
         ),
         (
+            ContactError::Input(InputError::Relief {
+                source: Box::new(ContactError::Solve(SolveError::OutsideBodies {
+                    x: 5.5,
+                    range: [6.5, 7.5],
+                })),
+            }),
+            &["relief of the roller", "5.5", "6.5 to 7.5"],
+        ),
+        (
+            ContactError::Input(InputError::Pose {
+                x: 1.5,
+                y: 2.5,
+                angle: 0.25,
+                source: Box::new(ContactError::Input(InputError::InvalidReference { length: 8.5 })),
+            }),
+            &["body 2 is at x = 1.5, y = 2.5, turned by 0.25", "8.5"],
+        ),
+        (
+            ContactError::Solve(SolveError::ToleranceNotReached {
+                tolerance: 1e-16,
+                reached: 2.5e-15,
+                points: 97,
+            }),
+            &["1e-16", "97 points", "2.5e-15", "narrower range"],
+        ),
+        (
             ContactError::Input(InputError::InvalidRoller { length: -1.5, slices: 0, most: 99 }),
             &["length -1.5", "0 slices", "positive", "1 to 99"],
         ),

@@ -5,7 +5,8 @@ use crate::common::{Profile, graph, quartic};
 use linecontact::profile::{Curve, Ellipse, Parabola, Placed, Placement, Spline};
 use linecontact::{
     Base, Contact, ContactError, Control, CurvePoint, Flat, Foundation, InputError, Layer,
-    Material, Pair, ParametricProfile, Piecewise, PlaneState, Pose, Reference, References, Wrench,
+    Material, Pair, ParametricProfile, Piecewise, PlaneState, Pose, Reference, References,
+    SolveError, Wrench,
 };
 
 const STEEL: Material<f64> = Material::Elastic { youngs_modulus: 2.1, poisson_ratio: 0.3 };
@@ -260,6 +261,43 @@ fn joined_bodies_measured_ones_and_layers_move_too() {
     }
 }
 
+/// A cam about its middle, near half a turn: what is described of it is its far side, with the
+/// material below, and its near side is nowhere.
+#[test]
+fn a_body_upside_down_is_refused() {
+    let cam = Placed::new(
+        Ellipse::new(1.0, 0.8, [-1.2, 1.2]).unwrap(),
+        Placement::default().shifted(0.0, -0.8),
+    )
+    .unwrap();
+    let joined = Piecewise::new(vec![
+        graph(-1.0, 0.0, |x| [0.3 * x * x - 0.8, 0.6 * x]),
+        graph(0.0, 1.0, |x| [0.4 * x * x - 0.8, 0.8 * x]),
+    ])
+    .unwrap();
+    // From right to left with k.
+    let back = Curve::new([-1.0, 1.0], |k: f64| CurvePoint {
+        x: -k,
+        y: 0.5 * k * k - 0.8,
+        dx: -1.0,
+        dy: k,
+    });
+    let bodies: [&dyn ParametricProfile<f64>; 3] = [&cam, &joined, &back];
+    for body in bodies {
+        let mut pair = Pair::new(&Flat, body, (STEEL, STEEL), TO);
+        for angle in [2.8, std::f64::consts::PI, -3.0] {
+            let error = pair.at(REST, pose(0.0, 0.79, angle)).unwrap_err();
+            assert!(matches!(error, ContactError::Input(InputError::Pose { .. })), "{error}");
+            assert!(error.to_string().contains("not upside down"), "{error}");
+        }
+        assert_eq!(pair.at(REST, pose(0.0, 0.79, 0.0)).unwrap().contacts, 1);
+        // The frame of body 1 counts.
+        let (sin, cos) = 3.0f64.sin_cos();
+        let turned = pair.at(pose(0.0, 0.0, 3.0), pose(-0.79 * sin, 0.79 * cos, 3.0)).unwrap();
+        assert_eq!(turned.contacts, 1);
+    }
+}
+
 #[test]
 fn poses_that_are_none_are_named_and_steep_contacts_are_said() {
     let circle = Ellipse::circle(1.0, [-1.0, 1.0]).unwrap();
@@ -279,6 +317,18 @@ fn poses_that_are_none_are_named_and_steep_contacts_are_said() {
         let error = pair.at(lower, upper).unwrap_err().to_string();
         assert!(error.ends_with(&format!("{says}: it must be finite")), "{error}");
     }
+    // What goes wrong in the contact is said of the pose: a disc as wide as the contact, bodies that
+    // are pressed too deep.
+    let small = References { upper: Reference::Disc(0.1), ..TO };
+    let mut pinned = Pair::new(&Flat, &circle, (STEEL, STEEL), small);
+    let error = pinned.at(pose(7.0, 1.0, 0.0), pose(7.5, 0.9, 0.0)).unwrap_err();
+    let says = "seen from body 1, body 2 is at x = 0.5, y = -0.1, turned by 0: a reference at 0.1";
+    assert!(error.to_string().starts_with(says), "{error}");
+    let error = pair.at(REST, pose(0.5, -1.5, 0.0)).unwrap_err();
+    let ContactError::Input(InputError::Pose { y, source, .. }) = error else { panic!("{error}") };
+    assert!(
+        y == -1.5 && matches!(*source, ContactError::Solve(SolveError::ApproachTooLarge { .. }))
+    );
     // After an error it goes on.
     assert!(!pair.at(REST, pose(0.0, -0.01, 0.0)).unwrap().is_steep);
     let flank = graph(-2.0, 2.0, |x| [0.5 * x, 0.5]);

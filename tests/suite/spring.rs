@@ -100,6 +100,15 @@ fn what_makes_no_table_is_refused() {
             "{tolerance}"
         );
     }
+    // Rounding leaves more. What is left is a tolerance that is reached.
+    let Err(ContactError::Solve(SolveError::ToleranceNotReached { reached, points, .. })) =
+        table([0.01, 0.1], 1e-17)
+    else {
+        panic!("a tolerance below rounding")
+    };
+    assert!(points == 4096 && reached > 1e-17 && reached < 1e-12, "{points} {reached:e}");
+    assert!(table([0.01, 0.1], reached).unwrap().error() <= reached);
+    assert!(table([0.01, 0.1], 1e-14).unwrap().error() <= 1e-14);
     assert!(matches!(
         table([0.01, 1e9], 1e-3),
         Err(ContactError::Solve(SolveError::DomainTooShort { .. }))

@@ -183,7 +183,8 @@ class ProfileError(InputError):
 
 
 class PoseError(InputError):
-    """Seen from body 1 of a `Pair`, body 2 is no body: it turns back, or its place is not finite.
+    """The bodies of a `Pair` bear no known force where they stand: body 2 turns back or is upside
+    down, its place is not finite, or the contact is not found.
 
     Attributes
     ----------
@@ -194,7 +195,7 @@ class PoseError(InputError):
     angle : float
         Angle from body 1 to body 2, counter-clockwise: radians.
     source : LineContactError
-        Fault of body 2 as it stands.
+        Fault of body 2 as it stands, or of the contact.
     """
 
     x: float
@@ -598,6 +599,18 @@ class InvalidReliefError(InputError):
 
     z: float
     height: float
+
+
+class ReliefError(InputError):
+    """The relief of a roller is no profile, or does not reach the middles of the outermost slices.
+
+    Attributes
+    ----------
+    source : LineContactError
+        Fault of the relief.
+    """
+
+    source: LineContactError
 
 
 class InvalidFrictionError(InputError):
@@ -1166,6 +1179,24 @@ class FallsError(SolveError):
     quantity: str
     load: float
     rate: float
+
+
+class ToleranceNotReachedError(SolveError):
+    """A table of springs with as many points as it may have is less exact than its tolerance.
+
+    Attributes
+    ----------
+    tolerance : float
+        Tolerance as given, a share.
+    reached : float
+        Error that is left, a share: a tolerance that can be reached.
+    points : int
+        Number of points.
+    """
+
+    tolerance: float
+    reached: float
+    points: int
 
 
 class LoadBeyondSlicesError(SolveError):
