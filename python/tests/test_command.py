@@ -199,7 +199,7 @@ def test_fields_of_both_bodies(run: Run, tmp_path: Path) -> None:
             ratio = np.where(depth <= layer.thickness, layer.material.poisson_ratio, base)
             share = (0.5 - ratio) * (stress.sigma_x + stress.sigma_y)
             want = np.hypot(share, 3**0.5 * stress.max_shear())
-            np.testing.assert_allclose(found[f"{body}_von_mises"][1], want, rtol=1e-12)
+            np.testing.assert_allclose(found[f"{body}_field_von_mises"][1], want, rtol=1e-12)
             points, fields = vtk(tmp_path / f"out_{body}_0002.vtk")
             np.testing.assert_allclose(-points[:, 0, 1], depth[:, 0], rtol=1e-15)
             np.testing.assert_allclose(-fields["tau_xy"], stress.tau_xy, rtol=1e-13)
@@ -376,15 +376,19 @@ def test_npz(run: Run, tmp_path: Path) -> None:
         stress_x, stress_y = on_the_axis(found["depth"][row] / (scale * LENGTH))
         np.testing.assert_allclose(found["sigma_x"][row][:, middle], scale * PEAK * stress_x, rtol=1e-9)
         np.testing.assert_allclose(found["sigma_y"][row][:, middle], scale * PEAK * stress_y, rtol=1e-9)
+    # A name has one meaning, that of the CSV: the largest stress is a number of each row.
+    assert found["max_shear"].shape == found["von_mises"].shape == (3,)
+    assert math.isclose(found["max_shear"][0], HERTZ.max_shear().value, rel_tol=1e-12)
+    assert found["field_max_shear"].shape == found["sigma_x"].shape
     iron = lc.Material(110e3, 0.1)
     assert run(roller({"load": 500.0}, lower=iron), "--npz", file)[0] == 0
     with np.load(file) as arrays:
         mixed = dict(arrays)
     stress = lc.Stress(mixed["sigma_x"], mixed["sigma_y"], mixed["tau_xy"])
     want = np.maximum(stress.von_mises(0.1), stress.von_mises(0.3))  # the worse of both bodies
-    np.testing.assert_allclose(mixed["von_mises"], want, rtol=1e-12)
+    np.testing.assert_allclose(mixed["field_von_mises"], want, rtol=1e-12)
     assert np.isnan(found["pressure"][1]).all() and np.isnan(found["tau_xy"][1]).all()
-    assert math.isclose(np.max(found["von_mises"][0]), HERTZ.max_von_mises(0.3).value, rel_tol=1e-3)
+    assert math.isclose(np.max(found["field_von_mises"][0]), HERTZ.max_von_mises(0.3).value, rel_tol=1e-3)
 
 
 def vtk(file: Path) -> tuple[Array, dict[str, Array]]:

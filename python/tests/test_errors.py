@@ -209,6 +209,16 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         "PoseError",
         {"x": 0.0, "y": 0.0, "angle": 1.5},
     ),
+    (
+        lambda: roller(relief=graph(lambda x: x * math.nan, lambda x: 0.0)),
+        "ReliefError",
+        {"source": "ProfileNotFiniteError"},
+    ),
+    (
+        lambda: lc.SpringTable(material(), TO, (1.0, 10.0), 1e-17),
+        "ToleranceNotReachedError",
+        {"tolerance": 1e-17, "points": 4096},
+    ),
     (lambda: contact().solve(load=-1.0), "InvalidLoadError", {"quantity": "load", "value": -1.0}),
     (
         lambda: contact().solve(half_width=0.0),
@@ -258,15 +268,17 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"edge": ("fixed", -0.5)},
     ),
     (
-        lambda: lc.solve(FLAT, BODY, materials=(lc.Material(-1.0, 0.3), STEEL), load=1.0),
+        lambda: lc.Material(-1.0, 0.3),
         "InvalidYoungsModulusError",
-        {"body": "lower", "modulus": -1.0},
+        {"body": "", "modulus": -1.0},
     ),
     (
         lambda: lc.contact_modulus(STEEL, lc.Material(1.0, 0.7)),
         "InvalidPoissonRatioError",
         {"ratio": 0.7},
     ),
+    (lambda: lc.Material(math.nan, 0.3), "InvalidYoungsModulusError", {}),
+    (lambda: lc.contact_modulus(STEEL, (0.0, 0.3)), "InvalidYoungsModulusError", {"modulus": 0.0}),
     (lambda: lc.Stress(1.0, 1.0, 0.0).von_mises(0.7), "InvalidPoissonRatioError", {"ratio": 0.7}),
     (lambda: solved(period=0.0), "InvalidPeriodError", {"period": 0.0}),
     (lambda: solved(period=2.0), "NotPeriodicError", {"body": "upper", "what": "the slope", "ends": (-1.0, 1.0)}),

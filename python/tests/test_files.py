@@ -205,7 +205,9 @@ def test_what_is_no_text_is_refused(tmp_path: Path) -> None:
         ("a.yaml", b"", "must end in"),
         ("a.json", b"[" * 100_000, "sequence"),
         ("a.toml", b"a = " + b"[" * 100_000, "recursion"),
-        ("a.toml", f"controls = [{{ load = inf }}]\n{GOOD}".encode(), "not finite"),
+        ("a.toml", f"controls = [\n{{ load = nan }}]\n{GOOD}".encode(), "a.toml:2: load: the number is not finite"),
+        ("a.toml", f"controls = [{{ approach = 0.1 }}]\n{GOOD}".encode(), r"a.toml:1: .*, or { approach = .*references = {"),
+        ("a.json", GOOD.encode(), "a.json:1"),
         ("a.toml", GOOD.replace("115e3", "nan").encode(), "not finite"),
     ]:
         (tmp_path / name).write_bytes(text)

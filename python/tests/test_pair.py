@@ -14,7 +14,8 @@ ROLLER = lc.Ellipse.circle(10.0, (-1.2, 1.2))
 
 
 def pair(**settings: Any) -> lc.Pair:
-    return lc.Pair(lc.Flat(), ROLLER, **({"materials": (STEEL, STEEL), "references": TO} | settings))
+    given: dict[str, Any] = {"upper": ROLLER, "materials": (STEEL, STEEL), "references": TO}
+    return lc.Pair(lc.Flat(), **(given | settings))
 
 
 def test_pose_in_wrench_out() -> None:
@@ -67,6 +68,15 @@ def test_apart_and_mistakes() -> None:
     assert raised.value.angle == 1.5 and isinstance(raised.value.source, lc.LineContactError)
     with pytest.raises(lc.errors.PoseError, match="the y of a pose is inf: it must be finite"):
         both.at(lc.Pose(), lc.Pose(0.0, np.inf))
+    with pytest.raises(lc.errors.PoseError, match="body 2 is at x = 2, y = -15, turned by 0: an approach") as raised:
+        both.at(lc.Pose(1.0, 1.0), lc.Pose(3.0, -14.0))
+    assert raised.value.y == -15.0 and isinstance(raised.value.source, lc.errors.ApproachTooLargeError)
+    assert raised.value.__cause__ is raised.value.source
+    cam = pair(upper=lc.Ellipse(10.0, 8.0, (-1.2, 1.2)).shifted(0.0, -8.0))
+    assert cam.at(lc.Pose(), lc.Pose(0.0, 7.99)).contacts == 1
+    for angle in (2.8, np.pi, 3.5):
+        with pytest.raises(lc.errors.PoseError, match="not upside down"):
+            cam.at(lc.Pose(), lc.Pose(0.0, 7.99, angle))
     with pytest.raises(TypeError, match="a pose is 3"):
         both.at(3, lc.Pose())  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="lower body"):

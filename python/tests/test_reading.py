@@ -105,6 +105,29 @@ def test_units_and_columns(tmp_path: Path) -> None:
         lc.read_profile(tmp_path / "none.csv")
 
 
+@pytest.mark.parametrize("mark", ["***", "*******", "N/A", "n.a.", "NA", "---", "?", "null", "None", "No Data", "Invalid", "#N/A"])
+def test_marks_of_points_that_were_not_measured(mark: str, tmp_path: Path) -> None:
+    rows = [f"{0.1 * i:.1f};{mark if i in (0, 4, 9) else i}" for i in range(10)]
+    file = written(tmp_path, "marks.csv", "x [mm];z [um]\n----;----\n" + "\n".join(rows) + "\n")
+    found = lc.read_profile(file, skip_missing=True)
+    assert found.missing == 3 and found.points[:, 0].round(9).tolist() == [0.1, 0.2, 0.3, 0.5, 0.6, 0.7, 0.8]
+    with pytest.raises(lc.errors.MeasuredFileError, match="not measured: skip_missing=True"):
+        lc.read_profile(file)
+
+
+def test_numbers_below_the_table(tmp_path: Path) -> None:
+    rows = [f"{0.1 * i:.1f};{i * i}" for i in range(12)]
+    table = "x [mm];z [um]\n" + "\n".join(rows)
+    for footer in ["12;46.2", "12", "0.55;46.2\n0;0\n1.1;121", "12;46.2\nmm", "-5;3"]:
+        found = lc.read_profile(written(tmp_path, "footer.csv", f"{table}\n\n{footer}\n"))
+        assert found.points.shape == (12, 2) and found.points[-1].tolist() == [1.1, 0.121], footer
+    # What goes on is none, and what no empty line sets off is told.
+    assert len(lc.read_profile(written(tmp_path, "gap.csv", f"{table}\n\n1.2;144\n1.3;169\n")).points) == 14
+    with pytest.raises(lc.errors.MeasuredFileError, match="x = 12 after 1.1 is farther off") as raised:
+        lc.read_profile(written(tmp_path, "count.csv", f"{table}\n12;46.2\n"))
+    assert raised.value.line == 14
+
+
 def test_columns_by_name(tmp_path: Path) -> None:
     file = written(tmp_path, "wide.csv", "n,x [mm],z [um],Note\n1,0,3,7\n2,1,4,8\n")
     for names in [("x", "z"), ("X [mm]", "Z[um]"), (2, "z"), (2, 3)]:
@@ -121,6 +144,12 @@ def test_columns_by_name(tmp_path: Path) -> None:
 def test_columns_are_taken_as_they_are_named(tmp_path: Path) -> None:
     turned = lc.read_profile(written(tmp_path, "turned.csv", "z [um];x [mm]\n0;1\n1;2\n4;3\n"))
     np.testing.assert_allclose(turned.points, [[1.0, 0.0], [2.0, 1e-3], [3.0, 4e-3]])
+    for heads in ["Height;Position", "Depth [um];X Position [mm]", "z (um);Lateral (mm)", "Amplitude;Distance", "z;X-Pos."]:
+        turned = lc.read_profile(written(tmp_path, "turned.csv", f"{heads}\n0;1\n1;2\n4;3\n"))
+        assert turned.points[:, 0].tolist() == [1.0, 2.0, 3.0], heads
+    for heads in ["Position;Height", "x;Position", "Length;Depth", "Distance;x"]:
+        kept = lc.read_profile(written(tmp_path, "kept.csv", f"{heads}\n1;0\n2;1\n3;4\n"))
+        assert kept.points[:, 0].tolist() == [1.0, 2.0, 3.0], heads
     with pytest.raises(lc.errors.MeasuredFileError, match="are all called 'x'"):
         lc.read_profile(written(tmp_path, "two.csv", "x;x;z\n0;1;3\n1;2;4\n2;3;9\n"), columns=("x", "z"))
 

@@ -82,6 +82,15 @@ def one_of(given: Any, name: str, allowed: Sequence[str]) -> str:
     raise ValueError(f"{name} is {given!r}: give one of {', '.join(map(repr, allowed))}")
 
 
+def refusal(name: str, says: str, **numbers: Any) -> Exception:
+    """Returns an error of the library with its numbers."""
+    from . import errors
+
+    error: Exception = getattr(errors, name)(says)
+    vars(error).update(numbers)
+    return error
+
+
 def refuse_unknown(given: Collection[str], allowed: Sequence[str], of: str) -> None:
     """Refuses keyword arguments that are not allowed, and names the allowed ones."""
     for name in given:

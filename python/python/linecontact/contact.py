@@ -9,7 +9,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
 
 from . import _native
-from ._numbers import Range, Unchanging, as_number, as_range, named, one_of
+from ._numbers import Range, Unchanging, as_number, as_range, named, one_of, refusal
 from .bodies import Body
 from .slipping import PartialSlip, acting
 from .solution import Solution, _ratio
@@ -61,8 +61,12 @@ class Material(_Material):
     __slots__ = ()
 
     def __new__(cls, youngs_modulus: float, poisson_ratio: float) -> Material:
-        """Creates the material; refuses an impossible Poisson's ratio here, before any solve."""
-        return super().__new__(cls, as_number(youngs_modulus, "youngs_modulus"), _ratio(poisson_ratio))
+        """Creates the material; refuses impossible numbers here, before any solve."""
+        modulus = as_number(youngs_modulus, "youngs_modulus")
+        if not modulus > 0.0:
+            says = f"Young's modulus is {modulus:g}: it must be positive, and infinite for a rigid body"
+            raise refusal("InvalidYoungsModulusError", says, body="", modulus=modulus)
+        return super().__new__(cls, modulus, _ratio(poisson_ratio))
 
     @classmethod
     def rigid(cls) -> Material:

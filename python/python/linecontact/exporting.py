@@ -44,9 +44,10 @@ def write_csv(path: Path, rows: Sequence[Row], units: Mapping[str, str]) -> None
 def write_npz(path: Path, rows: Sequence[Row]) -> None:
     """Writes the numbers of all rows, and their fields: arrays whose first index is the row.
 
-    `pressure` is at `x`; stresses are at `depth`, the second index, and `field_x`, the third. If a
-    body has a layer, each body has stresses of its own: `lower_sigma_x`, at `lower_depth`. Where the
-    bodies are apart all of them are NaN.
+    `pressure` is at `x`; stresses are at `depth`, the second index, and `field_x`, the third, and
+    those whose largest is one of the numbers are called so: `field_max_shear`. If a body has a
+    layer, each body has stresses of its own: `lower_sigma_x`, at `lower_depth`. Where the bodies are
+    apart all of them are NaN.
     """
     arrays: dict[str, Any] = {name: [row.numbers[name] for row in rows] for name in NUMBERS} | _places(rows)
     fields = [_fields(row.solution) if row.solution else {} for row in rows]
@@ -102,8 +103,9 @@ def _fields(solution: Solution) -> dict[str, FloatArray]:
     """Returns the pressures and all stresses, those of one body with its name."""
     found = _pressures(solution)
     for body, deepest in bodies(solution.contact):
-        field = _field(solution, body, deepest)
-        found |= {f"{body}_{name}" if body else name: values for name, values in field.items()}
+        before = f"{body}_" if body else ""
+        for name, values in _field(solution, body, deepest).items():
+            found[before + (f"field_{name}" if name in NUMBERS else name)] = values
     return found
 
 

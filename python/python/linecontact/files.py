@@ -97,7 +97,7 @@ class Scene:
         form = _form(path)
         text = Path(path).read_bytes()
         try:
-            fields = json.loads(_native.scene_text(text.decode("utf-8-sig"), form, "json"), object_hook=_finite)
+            fields = json.loads(_native.scene_text(text.decode("utf-8-sig"), form, "json"))
         except UnicodeDecodeError as error:
             line = text[: error.start].count(b"\n") + 1
             raise SceneFileError(os.fspath(path), line, "", "the text is not UTF-8") from None
@@ -135,14 +135,6 @@ def _form(path: str | os.PathLike[str]) -> str:
     if form not in ("toml", "json"):
         raise SceneFileError(os.fspath(path), None, "", "the name of the file must end in .toml or .json")
     return form
-
-
-def _finite(fields: Fields) -> Fields:
-    """Refuses numbers that JSON has no word for, and that TOML has."""
-    for name, value in fields.items():
-        if value is None:
-            raise SceneFileError("", None, name, "the number is not finite")
-    return fields
 
 
 def _json(fields: Fields) -> str:

@@ -38,8 +38,8 @@ class RollerState(NamedTuple):
     stiffness : ndarray
         Derivatives of load and moment, in this order in the rows, by approach and misalignment.
     error : float
-        Bound of the relative error of the load that the table leaves. Neither the number of slices
-        nor the model is in it.
+        Bound of the relative error of the load that the table leaves, by its `error` and
+        `touch_error`. Neither the number of slices nor the model is in it.
     z : ndarray
         Middles of the slices along the axis, from the middle of the roller: lengths.
     approaches : ndarray

@@ -84,10 +84,11 @@ class Pair:
     the follower. Where the surfaces slope by s in its frame, the real force is normal to them: its
     part along x, some s times the load, is left out, and so is its torque.
 
-    Each surface is a curve without a turn in the frame of the lower body, and the material of the
-    upper body is above its curve as it stands: a round body that rolls keeps its angle, with its
-    origin in the middle. A contact that reaches an end of the bodies is an error. One pair serves
-    one thread at a time; it starts from the contact found last.
+    Each surface is a curve without a turn in the frame of the lower body, with the material of the
+    upper body above it. A body that is turned until its curve runs back, or further, upside down, is
+    refused: of a cam that goes round, give the side that faces the follower. A round body that rolls
+    keeps its angle, with its origin in the middle. A contact that reaches an end of the bodies is an
+    error. One pair serves one thread at a time; it starts from the contact found last.
 
     Parameters
     ----------
@@ -148,7 +149,8 @@ class Pair:
         Raises
         ------
         linecontact.errors.PoseError
-            If the upper body turns back in the frame of the lower one.
+            If the upper body turns back or is upside down in the frame of the lower one, or no
+            contact is found: with the place of the upper body, and the error found there as `source`.
         """
         penetration, *vectors, contacts, is_steep = self._pair.at(_pose(lower), _pose(upper))
         force, at, torque = map(np.array, vectors)

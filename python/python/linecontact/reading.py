@@ -35,8 +35,14 @@ _NAMES = {
 _STATED = re.compile(r"(?:[\[(/]|\bin\s)\s*([^][()/\s,]+)\s*(?:[\])]|$|(?=[\s,]))")
 # What begins a remark, not within a cell: the rest of the line is none of the data.
 _REMARK = re.compile(r"(?:^|(?<=[\s;,]))[#%!].*")
-# Marks of Windows programs for a number that is none.
-_NO_NUMBER = re.compile(r"[+-]?1[.,]#(?:[QS]?NAN|IND|INF)0*", re.IGNORECASE)
+# Marks for a number that is none: those of Windows programs, of numbers too long for their column, and words.
+_NO_NUMBER = re.compile(
+    r"[+-]?1[.,]#(?:[QS]?NAN|IND|INF)0*|\*+|-+|\?+|n\.?/?a\.?|null|none|no ?data|missing|invalid|bad", re.IGNORECASE
+)
+# Names of x in headers, as `_bare` makes them.
+_ALONG = re.compile(r"x|(?:x[-_]?)?(?:pos(?:ition)?|dist(?:ance)?|length)\.?(?:[-_]?x)?|lateral|abscissa|travers?e?|travel")
+# Most rows of a footer of numbers, such as the count and the mean of the points.
+_FOOTER = 8
 
 # Delimiters of columns, in the order in which they are tried; None is white space.
 _DELIMITERS = ("\t", ";", ",", None)
@@ -130,8 +136,9 @@ def read_profile(
 
     In a text, columns are separated by tabs, semicolons, commas or white space. Lines before the
     first line of numbers are the header, and may state units as in ``x [mm]; z [um]``; lines of
-    words after the last are left out, and so is what follows ``#``, ``%`` or ``!``. Numbers may
-    have decimal commas. A profile that was measured from right to left is reversed. Heights are as
+    words after the last are left out, and so are a few numbers behind an empty line with which no
+    column goes on, such as their count, and what follows ``#``, ``%`` or ``!``. Numbers may have
+    decimal commas. A profile that was measured from right to left is reversed. Heights are as
     in the file: upwards, out of the material. For an upper body the spline is to be `flipped`.
 
     Parameters
@@ -144,13 +151,15 @@ def read_profile(
         Profile to be read from a surface, counted from 1, through all layers.
     columns : (int, int) or (str, str), optional
         Columns of x and z in a text, counted from 1, or their names in the header, with or without
-        the unit. Texts of two columns do not need them.
+        the unit. Texts of two columns do not need them: z comes first where a header says so, as in
+        ``Height; Position``.
     file_units : (str, str), optional
         Units of x and z in a text, in place of those that its header states.
     skip_missing : bool
         True to leave out points that were not measured wherever they are: a spline then bridges
         the gaps. By default they are left out at the ends only; between others they are an error.
-        Empty cells, NaN and infinite numbers were not measured.
+        Empty cells, NaN, infinite numbers, and marks such as ``***``, ``---`` and ``N/A`` were not
+        measured.
     facing : {"up", "down"}, optional
         Part to be kept of a profile whose x turns back, as that of a flange: what is seen from
         above, which is what can touch, or from below where the file has heights into the
@@ -211,6 +220,9 @@ def read_profile(
         reason = f"x = {here:g} after {there:g}: x must rise throughout, or fall throughout{hint}"
         remedy = "facing='up' keeps what is seen from above"
         raise _fault(name, lines, int(places[back[0] + 1]), f"{reason}; {remedy}")
+    if abs(x[-1] - x[-2]) > 2.0 * abs(x[-2] - x[0]) and len(x) > 4:
+        reason = f"x = {x[-1]:g} after {x[-2]:g} is farther off than the profile is long"
+        raise _fault(name, lines, int(places[-1]), f"{reason}: leave the line out if it is a count or a mean")
     return MeasuredProfile(points[places[::turn]], wanted, missing)
 
 
@@ -289,10 +301,26 @@ def _table(
     rows = [(cells, line) for cells, line in rows if any(cells)]
     while _number(rows[-1][0][0]) is None:
         rows.pop()
+    empty = [line for line, content in enumerate(lines[first:], first + 1) if not content.strip()]
+    body = [cells for cells, line in rows if not empty or line < empty[0]]
+    if _is_footer(body, [cells for cells, _ in rows[len(body) :]], width):
+        rows = rows[: len(body)]
     for cells, line in rows:
         if len(cells) < width or any(cell and _number(cell) is not None for cell in cells[width:]):
             raise MeasuredFileError(name, f"{len(cells)} columns: there are {width} in line {first + 1}", line)
     return [cells for cells, _ in rows], [line for _, line in rows]
+
+
+def _is_footer(body: Sequence[list[str]], behind: Sequence[list[str]], width: int) -> bool:
+    """Tells whether few rows behind the first empty line are none of the table: no column goes on in them."""
+    if not 0 < len(behind) <= min(_FOOTER, len(body) // 4):
+        return False
+    if len(behind[0]) < width or any(len(cells) < width for cells in body):
+        return True
+    table = np.array([[_number(cell) for cell in cells[:width]] for cells in [*body, behind[0]]], dtype=np.float64)
+    steps, length = np.diff(table, axis=0), table[-2] - table[0]
+    goes_on = (steps[:-1] * length > 0.0).all(axis=0) & (steps[-1] / length > 0.0) & (steps[-1] / length <= 1.0)
+    return not goes_on.any()
 
 
 def _decoded(name: str, data: bytes) -> str:
@@ -334,7 +362,7 @@ def _first_row(name: str, lines: Sequence[str]) -> tuple[int, str | None, int]:
             cells = _cells(line, delimiter)
             while len(cells) > 2 and not cells[-1]:
                 cells.pop()
-            if len(cells) > 1 and cells[0] and None not in map(_number, cells):
+            if len(cells) > 1 and cells[0] and None not in map(_number, cells) and not _NO_NUMBER.fullmatch(cells[0]):
                 passed.append((at, delimiter, len(cells)))
                 below = next((cells for line in lines[at + 1 :] if any(cells := _cells(line, delimiter))), [""])
                 if _number(below[0]) is not None:
@@ -385,8 +413,8 @@ def _numbered(name: str, heads: Sequence[_Head], column: int | str) -> int:
 
 def _in_order(heads: Sequence[_Head]) -> tuple[int, int]:
     """Returns the columns of x and z of two: the second is x if a header calls it so, and not the first."""
-    bare = [[_bare(cell) for cell in head.ways[0]] for head in heads]
-    return (2, 1) if any(len(names) == 2 and names[1] == "x" != names[0] for names in bare) else (1, 2)
+    of = [[_ALONG.fullmatch(_bare(cell)) is not None for cell in head.ways[0]] for head in heads]
+    return (2, 1) if [False, True] in of else (1, 2)
 
 
 def _columns_to_try(heads: Sequence[_Head], width: int, can_be_x: Sequence[int]) -> str:

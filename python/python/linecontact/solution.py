@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 import numpy as np
 
 from . import _native
-from ._numbers import FloatArray, Numbers, as_number, as_numbers, each
+from ._numbers import FloatArray, Numbers, as_number, as_numbers, each, refusal
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -331,11 +331,8 @@ def _ratio(given: float) -> float:
     """Returns Poisson's ratio; refuses an impossible one."""
     ratio = as_number(given, "poisson_ratio")
     if not 0.0 <= ratio <= 0.5:
-        from .errors import InvalidPoissonRatioError
-
-        error = InvalidPoissonRatioError(f"Poisson's ratio is {ratio}: it must be from 0 to 1/2, as 0.3 of steel")
-        error.ratio = ratio
-        raise error
+        says = f"Poisson's ratio is {ratio}: it must be from 0 to 1/2, as 0.3 of steel"
+        raise refusal("InvalidPoissonRatioError", says, ratio=ratio)
     return ratio
 
 
