@@ -163,13 +163,12 @@ impl<T: Real> FiniteRoller<T> {
             };
             InputError::Relief { source: Box::new(source) }
         };
-        let newton = Newton::DEFAULT;
-        let gap = Gap::new(Shape::Lent(&Flat), Shape::Lent(relief), &newton).map_err(in_relief)?;
+        let [flat, relief] = [Shape::Lent(&Flat), Shape::Lent(relief)];
+        let gap = Gap::new(flat, relief, &Newton::DEFAULT).map_err(in_relief)?;
         let (mut sampler, n) = (Sampler::default(), T::count(slices));
         let slice = |i| {
             let (z, [from, to]) = (length * ((T::count(2 * i + 1) - n) / (n + n)), gap.range());
-            let must = "within the relief: describe the relief up to there";
-            finite("the middle z of a slice", z, from <= z && z <= to, must)?;
+            finite("the z of a slice", z, from <= z && z <= to, "where the relief is known")?;
             Ok([z, sampler.height(&gap, z)?])
         };
         let slices = (0..slices).map(slice).collect::<Result<Vec<_>, _>>().map_err(in_relief)?;

@@ -185,10 +185,9 @@ impl<'b, T: Real> Pair<'b, T> {
     /// It is continuous where bodies touch, and where contacts appear or merge.
     ///
     /// # Errors
-    /// [`InputError::Pose`] if body 2 turns back or is upside down in the frame of body 1, or stands
-    /// nowhere; also if no contact is found there, or one as wide as a reference or a layer bears no
-    /// more, with the error of [`Contact::solve`] as its source. Errors of the materials, of body 1
-    /// and of the resolution, which no pose mends, are those of a [`Contact`].
+    /// [`InputError::Pose`] with the place of body 2 in the frame of body 1: if it turns back there or
+    /// is upside down, or stands nowhere, and with each error of [`Contact::solve`] under the
+    /// approach.
     pub fn at(&mut self, lower: Pose<T>, upper: Pose<T>) -> Result<Wrench<T>, ContactError<T>> {
         Ok(self.pressed(lower, upper)?.wrench)
     }
@@ -227,23 +226,12 @@ impl<'b, T: Real> Pair<'b, T> {
     }
 
     fn pressed(&mut self, lower: Pose<T>, upper: Pose<T>) -> Result<Pressed<T>, ContactError<T>> {
-        use InputError::{InvalidReference, LayerTooThin, Profile, Shape};
         let seen = upper.seen_from(&lower);
         let poses = lower.check().and(upper.check()).map_err(ContactError::from);
         let found = poses.and_then(|()| self.pressed_in_frame(&seen));
-        let mut found = found.map_err(|error| match error {
-            ContactError::Solve(_)
-            | ContactError::Input(
-                Shape(_)
-                | Profile { body: Body::Upper, .. }
-                | InvalidReference { .. }
-                | LayerTooThin { .. },
-            ) => {
-                let (Pose { x, y, angle }, source) = (seen, Box::new(error));
-                InputError::Pose { x, y, angle, source }.into()
-            }
-            error => error,
-        })?;
+        let Pose { x, y, angle } = seen;
+        let of_pose = |error| InputError::Pose { x, y, angle, source: Box::new(error) };
+        let mut found = found.map_err(of_pose)?;
         let Wrench { force, at, .. } = &mut found.wrench;
         let [x, y] = lower.turned(*at);
         (*force, *at) = (lower.turned(*force), [lower.x + x, lower.y + y]);

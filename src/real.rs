@@ -3,7 +3,6 @@
 use crate::compiled::*;
 use nalgebra::RealField;
 use num_traits::FromPrimitive;
-use std::cmp::Ordering;
 
 /// Real number that the solver can work in: `f32`, `f64`, with the feature `autodiff` dual numbers,
 /// and any other `Copy` type that is a [`nalgebra::RealField`], by an empty `impl`.
@@ -63,11 +62,6 @@ impl Real for f64 {
 /// Tells whether two numbers agree in all components. (Dual numbers compare by their values.)
 pub(crate) fn same<T: Real>(a: T, b: T) -> bool {
     (0..T::COMPONENTS).all(|i| a.component(i) == b.component(i))
-}
-
-/// Orders numbers by size; one that is NaN counts as equal to any.
-pub(crate) fn by_size<T: Real>(one: T, other: T) -> Ordering {
-    one.partial_cmp(&other).unwrap_or(Ordering::Equal)
 }
 
 /// Tells whether a number is finite in all components.

@@ -9,11 +9,10 @@
 //! powers of the approach.
 
 use crate::contact::check_given;
-use crate::real::{by_size, same};
+use crate::real::same;
 use crate::solution::Approaching;
 use crate::{
-    Contact, ContactError, Control, EvaluationError, InputError, Real, References, Solution,
-    SolveError, Solver,
+    Contact, ContactError, Control, EvaluationError, InputError, Real, References, Solution, Solver,
 };
 use std::collections::VecDeque;
 
@@ -147,9 +146,10 @@ impl<T: Real> SpringTable<T> {
     /// # Errors
     /// [`InputError::InvalidLoad`] for a range that is not positive and rising;
     /// [`InputError::InvalidTolerance`] for a tolerance that is not above 0 and below 1;
-    /// [`SolveError::ToleranceNotReached`] for one that 4096 points do not reach, with the error
-    /// that they leave; the errors of [`Contact::solve`], [`Solution::approach`],
-    /// [`Solution::stiffness`] and [`Solution::peak`]; [`SolveError::Falls`].
+    /// [`SolveError::ToleranceNotReached`](crate::SolveError::ToleranceNotReached) for one that 4096
+    /// points do not reach, with the error that they leave; the errors of [`Contact::solve`],
+    /// [`Solution::approach`], [`Solution::stiffness`] and [`Solution::peak`];
+    /// [`SolveError::Falls`](crate::SolveError::Falls).
     pub fn new(
         contact: &Contact<'_, T>,
         references: &References<T>,
@@ -201,17 +201,17 @@ impl<T: Real> SpringTable<T> {
             let is_apart = ratio > T::one() + T::of(LEAST_STEP_OF_TABLE);
             if error > tolerance && is_apart && table.points.len() < MAX_TABLE {
                 pending.extend([[from, middle], [middle, to]]);
-                table.points.push(middle);
+                let before = |node: &Node<T>| node.point.load < middle.point.load;
+                table.points.insert(table.points.partition_point(before), middle);
                 continue;
             }
             table.error = table.error.max(error);
             table.stiffness_error = table.stiffness_error.max(stiffness_error);
         }
-        let (points, reached) = (table.points.len(), table.error);
-        if reached > tolerance && points == MAX_TABLE {
-            return Err(SolveError::ToleranceNotReached { tolerance, reached, points }.into());
+        if table.error > tolerance && table.points.len() >= MAX_TABLE {
+            let reached = table.error;
+            return Err(crate::SolveError::ToleranceNotReached { tolerance, reached }.into());
         }
-        table.points.sort_by(|one, other| by_size(one.point.load, other.point.load));
         Ok(table)
     }
 

@@ -203,7 +203,7 @@ table! {
     InJump { wanted, load, below, above };
     ApproachTooLarge { wanted, approach, load };
     Falls { quantity, load, rate };
-    ToleranceNotReached { tolerance, reached, points };
+    ToleranceNotReached { tolerance, reached };
     LoadBeyondBodies { load, at, ends };
     LoadBeyondSlices { load, at, ends };
     OneSlice { z };

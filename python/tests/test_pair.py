@@ -49,10 +49,10 @@ def test_a_resolution_shows_a_burr() -> None:
     assert [one.contacts for one in found] == [0, 1]
     assert found[1].at[0] == pytest.approx(0.6303, abs=1e-4)
     again = pickle.loads(pickle.dumps(pair(resolution=-1.0)))
-    with pytest.raises(lc.errors.InvalidResolutionError):
-        again.at(lc.Pose(), lc.Pose())
-    with pytest.raises(lc.errors.InvalidResolutionError):
-        pair(resolution=-1.0).at(lc.Pose(), lc.Pose())
+    for one in (again, pair(resolution=-1.0)):
+        with pytest.raises(lc.errors.PoseError, match="the resolution is -1") as raised:
+            one.at(lc.Pose(), lc.Pose())
+        assert isinstance(raised.value.source, lc.errors.InvalidResolutionError)
     with pytest.raises(TypeError, match="resolution"):
         pair(resolution="fine")
 

@@ -404,16 +404,14 @@ pub enum SolveError<T: Real> {
     },
     /// A table of springs with as many points as it may have is less exact than its tolerance.
     #[error(
-        "the tolerance {} is not reached: {points} points of the table leave an error of {}; ask for that, or for a \
-         narrower range of loads", six(*tolerance), six(*reached)
+        "the tolerance {} is not reached: with all points that a table may have the error is {}; ask for that, or for \
+         a narrower range of loads", six(*tolerance), six(*reached)
     )]
     ToleranceNotReached {
         /// Tolerance as given, a share.
         tolerance: T,
         /// Error that is left, a share: a tolerance that can be reached.
         reached: T,
-        /// Number of points.
-        points: usize,
     },
     /// The load of a roller acts beyond its slices: no pressure between them has this moment.
     #[error(

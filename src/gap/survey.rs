@@ -30,7 +30,6 @@ mod series;
 mod tests;
 
 use super::{Cost, Gap};
-use crate::real::by_size;
 use crate::{Body as Which, ContactError, InputError, Interval, ProfileError, Real};
 use body::Body;
 use convex::{Stretch, convex_stretches};
@@ -41,6 +40,7 @@ use series::BodyPoint;
 pub(super) use series::Series;
 /// Series of either body that give approximate parameters, with the numbers of their pieces.
 pub(crate) type Guides<T> = [[Option<(usize, Series<T>)>; 2]; 2];
+use std::cmp::Ordering;
 
 /// Largest number of rounds of halving, and of evaluations, for one load.
 const MAX_ROUNDS: usize = 40;
@@ -334,7 +334,8 @@ impl<T: Real> Survey<T> {
         std::mem::swap(&mut self.nodes, &mut self.before);
         let (nodes, before) = (&mut self.nodes, &self.before);
         for body in &mut self.bodies {
-            body.fresh.sort_by(|one, other| by_size(one[0], other[0]));
+            body.fresh
+                .sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Ordering::Equal));
         }
         nodes.clear();
         nodes.reserve(2 + self.bodies.iter().map(|body| body.points.capacity()).sum::<usize>());

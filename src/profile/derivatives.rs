@@ -14,7 +14,6 @@
 use super::{ParametricProfile, Piece, ProfileError, finite_at, interval};
 use crate::Real;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::real::by_size;
 
 /// Number of ranges into which the domain is divided at first.
 const RANGES: usize = 64;
@@ -235,7 +234,8 @@ impl<T: Real> Range<T> {
 /// Returns the part whose share of error is the median.
 fn typical<T: Real>(parts: &[Range<T>], i: usize) -> Range<T> {
     let mut parts = parts.to_vec();
-    parts.sort_by(|a, b| by_size(a.share(i), b.share(i)));
+    let order = |a: &T, b: &T| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
+    parts.sort_by(|a, b| order(&a.share(i), &b.share(i)));
     parts[parts.len() / 2]
 }
 

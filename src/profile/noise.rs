@@ -2,7 +2,6 @@
 
 use super::{CurvePoint, Piece};
 use crate::Real;
-use crate::real::by_size;
 
 /// Lengths over which the noise is measured, as shares of a piece: powers of the rounding unit.
 /// Over the shortest all values may be rounded alike, as those of a cosine at 0.
@@ -91,7 +90,7 @@ impl<T: Real> Noise<T> {
                 }
                 *size = T::of(scale) * (sum / weights).abs();
             }
-            sizes.sort_by(|one, other| by_size(*one, *other));
+            sizes.sort_by(|one, other| one.partial_cmp(other).unwrap_or(std::cmp::Ordering::Equal));
             let median = sizes[order + (POINTS - order) / 2];
             if median.is_finite() { median } else { zero }
         };

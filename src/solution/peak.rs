@@ -3,8 +3,8 @@
 use super::{ContactState, LoadRates, Solution, Solved};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Engine, Estimate, LoadCase};
-use crate::real::by_size;
 use crate::{ContactError, EvaluationError, Interval, Real};
+use std::cmp::Ordering;
 
 /// Least number of grid points for the first search of a largest pressure.
 const LEAST_GRID: usize = 64;
@@ -219,7 +219,7 @@ pub(super) fn rises<T: Real>(grid: &[[T; 2]]) -> Vec<Rise<T>> {
         is_top.then_some(Rise { bracket: beside.map(|[x, _]| x), highest, bound })
     };
     let mut rises: Vec<_> = (0..grid.len()).filter_map(rise).collect();
-    rises.sort_by(|one, other| by_size(other.bound, one.bound));
+    rises.sort_by(|one, other| other.bound.partial_cmp(&one.bound).unwrap_or(Ordering::Equal));
     rises
 }
 

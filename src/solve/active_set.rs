@@ -24,10 +24,10 @@ mod potential;
 
 use crate::kernel::Kernel;
 use crate::numerics::dot;
-use crate::real::by_size;
 use crate::{ContactError, Ends, Interval, Real};
 use forces::{line, sum};
 use potential::{CellPlace, Potential};
+use std::cmp::Ordering::Equal;
 
 /// Number of cells at first; twice as many after a failed check may resolve more.
 pub(super) const FIRST_CELLS: usize = 33;
@@ -249,8 +249,11 @@ impl<'s, T: Real> ActiveSet<'s, T> {
     }
 
     fn lowest(&self) -> Option<usize> {
-        let height = |&i: &usize| self.cells[i].height;
-        (0..self.cells.len()).min_by(|i, j| by_size(height(i), height(j)))
+        let by_height = |&i: &usize, &j: &usize| {
+            let [one, other] = [i, j].map(|i| self.cells[i].height);
+            one.partial_cmp(&other).unwrap_or(Equal)
+        };
+        (0..self.cells.len()).min_by(by_height)
     }
 
     /// Returns the distance to the right of the place of the load, as a share of the range.
@@ -294,8 +297,9 @@ impl<'s, T: Real> ActiveSet<'s, T> {
             self.cells[i].height + share * (self.cells[j].height - self.cells[i].height)
         };
         let pairs = (0..middle).flat_map(|i| (middle..arms.len()).map(move |j| [i, j]));
+        let by_line = |one: &_, other: &_| line(one).partial_cmp(&line(other)).unwrap_or(Equal);
         let lowest = self.lowest().unwrap_or(0);
-        pairs.min_by(|one, other| by_size(line(one), line(other))).unwrap_or([lowest; 2])
+        pairs.min_by(by_line).unwrap_or([lowest; 2])
     }
 
     /// Tells whether there are loaded cells whose forces can act where they have to.

@@ -397,7 +397,7 @@ fn rollers_that_cannot_be_made_are_refused() {
     assert!(FiniteRoller::new(table.clone(), 10.0, 5, &hollow).is_ok());
     let short = Parabola::new(1e3, [-4.0, 4.0]).unwrap();
     let error = made(10.0, 30, &short);
-    let says = "the relief of the roller: the middle z of a slice is -4.83333: it must be within the relief";
+    let says = "the relief of the roller: the z of a slice is -4.83333: it must be where the relief is known";
     assert!(error.to_string().starts_with(says), "{error}");
     let of = |height: fn(f64) -> f64| {
         Curve::new([-5.0, 5.0], move |z: f64| CurvePoint { x: z, y: height(z), dx: 1.0, dy: 0.0 })

@@ -101,12 +101,12 @@ fn what_makes_no_table_is_refused() {
         );
     }
     // Rounding leaves more. What is left is a tolerance that is reached.
-    let Err(ContactError::Solve(SolveError::ToleranceNotReached { reached, points, .. })) =
+    let Err(ContactError::Solve(SolveError::ToleranceNotReached { reached, .. })) =
         table([0.01, 0.1], 1e-17)
     else {
         panic!("a tolerance below rounding")
     };
-    assert!(points == 4096 && reached > 1e-17 && reached < 1e-12, "{points} {reached:e}");
+    assert!(reached > 1e-17 && reached < 1e-12, "{reached:e}");
     assert!(table([0.01, 0.1], reached).unwrap().error() <= reached);
     assert!(table([0.01, 0.1], 1e-14).unwrap().error() <= 1e-14);
     assert!(matches!(

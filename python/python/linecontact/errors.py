@@ -183,7 +183,7 @@ class ProfileError(InputError):
 
 
 class PoseError(InputError):
-    """The bodies of a `Pair` bear no known force where they stand: body 2 turns back or is upside
+    """The force of a `Pair` is not known where its bodies stand: body 2 turns back or is upside
     down, its place is not finite, or the contact is not found.
 
     Attributes
@@ -1190,13 +1190,10 @@ class ToleranceNotReachedError(SolveError):
         Tolerance as given, a share.
     reached : float
         Error that is left, a share: a tolerance that can be reached.
-    points : int
-        Number of points.
     """
 
     tolerance: float
     reached: float
-    points: int
 
 
 class LoadBeyondSlicesError(SolveError):

@@ -149,8 +149,8 @@ class Pair:
         Raises
         ------
         linecontact.errors.PoseError
-            If the upper body turns back or is upside down in the frame of the lower one, or no
-            contact is found: with the place of the upper body, and the error found there as `source`.
+            With the place of the upper body in the frame of the lower one, and what is wrong there as
+            `source`: it turns back or is upside down, or no contact is found.
         """
         penetration, *vectors, contacts, is_steep = self._pair.at(_pose(lower), _pose(upper))
         force, at, torque = map(np.array, vectors)

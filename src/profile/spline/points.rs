@@ -1,7 +1,6 @@
 //! Conditions on points that become a profile.
 
 use crate::Real;
-use crate::real::by_size;
 use crate::rounded::{apart, six, span};
 use std::cmp::Ordering;
 use thiserror::Error;
@@ -191,7 +190,8 @@ fn culprit<T: Real>(points: &[[T; 2]], i: usize) -> usize {
         (0..rest.len()).fold(T::zero(), |sum, j| sum + deviation(&rest, j).abs())
     };
     let candidates = i.saturating_sub(2)..(i + 3).min(points.len());
-    candidates.min_by(|a, b| by_size(rough(a), rough(b))).unwrap_or(i)
+    let order = |a: &usize, b: &usize| rough(a).partial_cmp(&rough(b)).unwrap_or(Ordering::Equal);
+    candidates.min_by(order).unwrap_or(i)
 }
 
 /// Returns the distance of a point from the cubic through its neighbours, scaled to the error of a
@@ -220,5 +220,6 @@ fn foretold<T: Real>(points: &[[T; 2]], i: usize) -> (T, T) {
 fn median<T: Real>(values: &[T], sorted: &mut Vec<T>) -> T {
     sorted.clear();
     sorted.extend_from_slice(values);
-    *sorted.select_nth_unstable_by((values.len() - 1) / 2, |a, b| by_size(*a, *b)).1
+    let order = |a: &T, b: &T| a.partial_cmp(b).unwrap_or(Ordering::Equal);
+    *sorted.select_nth_unstable_by((values.len() - 1) / 2, order).1
 }

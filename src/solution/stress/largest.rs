@@ -3,8 +3,8 @@
 use super::super::peak::{places, rises};
 use super::super::pressure_integral::Density;
 use super::{Stress, StressPeak, Subsurface, checked_ratio};
-use crate::real::by_size;
 use crate::{ContactError, EvaluationError, Interval, Real, Side};
+use std::cmp::Ordering;
 
 /// Number of abscissae and of depths on the first grid.
 const COLUMNS: usize = 33;
@@ -262,7 +262,9 @@ impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V>
     /// unless it is too low to lead to the highest maximum.
     fn top(&self, features: &Features<T>) -> Result<StressPeak<T>, ContactError<T>> {
         let mut feet = self.first_look(features)?;
-        feet.sort_by(|(_, one), (_, other)| by_size(other.value, one.value));
+        feet.sort_by(|(_, one), (_, other)| {
+            other.value.partial_cmp(&one.value).unwrap_or(Ordering::Equal)
+        });
         let least = T::of(LEAST_PROMISING) * feet[0].1.value;
         let mut best = feet[0].1;
         for foot in feet.into_iter().take_while(|(_, foot)| foot.value >= least) {

@@ -2,8 +2,8 @@
 
 use super::super::peak::{narrow, rises};
 use super::Subsurface;
-use crate::real::by_size;
 use crate::{ContactError, EvaluationError, Extremum, Interval, Real, Side};
+use std::cmp::Ordering;
 
 impl<T: Real> Subsurface<'_, T> {
     /// Finds the largest tension along the surface, the largest σ_x at depth 0, and its place. This
@@ -45,7 +45,7 @@ impl<T: Real> Subsurface<'_, T> {
             for x in [self.wide_grid(contact, on), self.limits(on)].concat() {
                 grid.push([x, self.tension(x, on)?]);
             }
-            grid.sort_by(|[one, _], [other, _]| by_size(*one, *other));
+            grid.sort_by(|[one, _], [other, _]| one.partial_cmp(other).unwrap_or(Ordering::Equal));
             for rise in rises(&grid) {
                 if rise.bound <= best.value {
                     break;

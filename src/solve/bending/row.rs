@@ -6,8 +6,8 @@
 
 use super::{Bending, Spread, load};
 use crate::kernel::punch;
-use crate::real::by_size;
 use crate::{ContactError, Interval, Real, SolveError};
+use std::cmp::Ordering;
 
 /// Least distance of the cut from the contacts, by the widest gap.
 const SHORT: f64 = 0.2;
@@ -108,7 +108,7 @@ fn widest_gap<T: Real>(contacts: &[Interval<T>], period: T) -> [T; 2] {
 /// Lists the intervals of pressures from left to right; those before and after a step overlap.
 fn merged<T: Real>(spreads: &[Spread<T>]) -> Vec<Interval<T>> {
     let mut ends: Vec<Interval<T>> = spreads.iter().map(|spread| spread.on).collect();
-    ends.sort_by(|one, other| by_size(one.left, other.left));
+    ends.sort_by(|one, other| one.left.partial_cmp(&other.left).unwrap_or(Ordering::Equal));
     ends.dedup_by(|next, last| {
         let is_one = next.left <= last.right;
         last.right = if is_one { last.right.max(next.right) } else { last.right };

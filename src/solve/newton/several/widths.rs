@@ -2,8 +2,8 @@
 
 use super::super::super::fault::Fault;
 use super::{MAX_CUT, MAX_CUT_STEPS, NewtonSeveral, Width};
-use crate::real::by_size;
 use crate::{Interval, Real};
+use std::cmp::Ordering;
 
 /// Least share of its width that a contact or a gap keeps in one step.
 const LEAST_WIDTH_LEFT: f64 = 0.3;
@@ -60,7 +60,10 @@ impl<T: Real> NewtonSeveral<T> {
         order.clear();
         order.extend(0..count - 1);
         // The narrowest first: their limits may move by more than the width.
-        order.sort_unstable_by(|&one, &other| by_size(self.width(one), self.width(other)));
+        let by_width = |&one: &usize, &other: &usize| {
+            self.width(one).partial_cmp(&self.width(other)).unwrap_or(Ordering::Equal)
+        };
+        order.sort_unstable_by(by_width);
         for &i in &order {
             let width = self.width(i);
             let change = self.moves[i + 1] - self.moves[i];
