@@ -185,8 +185,8 @@ impl<'b, T: Real> Pair<'b, T> {
     /// It is continuous where bodies touch, and where contacts appear or merge.
     ///
     /// # Errors
-    /// [`InputError::Pose`] with the place of body 2 in the frame of body 1: if it turns back there or
-    /// is upside down, or stands nowhere, and with each error of [`Contact::solve`] under the
+    /// [`InputError::Pose`] with the place of body 2 in the frame of body 1: if it turns back there
+    /// or is upside down, or stands nowhere, and with each error of [`Contact::solve`] under the
     /// approach.
     pub fn at(&mut self, lower: Pose<T>, upper: Pose<T>) -> Result<Wrench<T>, ContactError<T>> {
         Ok(self.pressed(lower, upper)?.wrench)

@@ -146,8 +146,8 @@ impl<T: Real> SpringTable<T> {
     /// # Errors
     /// [`InputError::InvalidLoad`] for a range that is not positive and rising;
     /// [`InputError::InvalidTolerance`] for a tolerance that is not above 0 and below 1;
-    /// [`SolveError::ToleranceNotReached`](crate::SolveError::ToleranceNotReached) for one that 4096
-    /// points do not reach, with the error that they leave; the errors of [`Contact::solve`],
+    /// [`ToleranceNotReached`](crate::SolveError::ToleranceNotReached) for one that 4096 points do
+    /// not reach, with the error that they leave; the errors of [`Contact::solve`],
     /// [`Solution::approach`], [`Solution::stiffness`] and [`Solution::peak`];
     /// [`SolveError::Falls`](crate::SolveError::Falls).
     pub fn new(
@@ -233,12 +233,12 @@ impl<T: Real> SpringTable<T> {
     }
 
     /// Returns the error of the table near first touch, between an approach of zero and the first
-    /// point, at δ₁ with the least load F₁. There the table has `F₁ (δ/δ₁)ⁿ`, with the exponent n of
-    /// the first point, in place of the true load F(δ). The error is the largest `|F₁ (δ/δ₁)ⁿ - F|`
-    /// as a share of F₁, a number without unit: with 0.002 and a least load of 10 N/mm the loads up
-    /// to there are exact to 0.02 N/mm. It is twice the largest error at 1/2, 1/4 and 1/20 of F₁;
-    /// more than 1, so nothing is known, where corners do not hold so light a load. A smaller least
-    /// load makes it slowly smaller.
+    /// point, at δ₁ with the least load F₁. There the table has `F₁ (δ/δ₁)ⁿ`, with the exponent n
+    /// of the first point, in place of the true load F(δ). The error is the largest difference of
+    /// both as a share of F₁, a number without unit: with 0.002 and a least load of 10 N/mm the
+    /// loads up to there are exact to 0.02 N/mm. It is twice the largest one at 1/2, 1/4 and 1/20
+    /// of F₁; more than 1, so that nothing is known, where corners do not hold so light a load. A
+    /// smaller least load makes it slowly smaller.
     pub fn touch_error(&self) -> T {
         self.touch_error
     }

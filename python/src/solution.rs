@@ -4,10 +4,11 @@ use crate::call::{self, Array, Numbers};
 use crate::control::{ReferenceRow, references};
 use linecontact::stress::{Stress, StressPeak, Subsurface};
 use linecontact::{
-    Body, ContactError, Cost, Ends, Extremum, Interval, Outcome, Peak, Pressure, Start, Uncertainty,
+    Body, ContactError, Cost, Ends, Extremum, Interval, Peak, Pressure, Uncertainty,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::fmt::Debug;
 
 type Pair = (f64, f64);
 
@@ -23,33 +24,14 @@ fn counts(cost: Cost) -> Counts {
     (samples, evaluations, heights, searches, search_values)
 }
 
-fn start(start: Start) -> &'static str {
-    match start {
-        Start::Middle => "middle",
-        Start::LowestGap => "lowest_gap",
-        Start::Given => "given",
-        Start::LineOfLoad => "line_of_load",
-        Start::Last => "last",
-        Start::ActiveSet => "active_set",
-        Start::Attempt => "attempt",
-        _ => "other",
+/// Returns the name of a variant in Python, `lowest_gap` of `LowestGap`.
+fn name(variant: impl Debug) -> String {
+    let mut name = String::new();
+    for letter in format!("{variant:?}").chars() {
+        name += if letter.is_uppercase() && !name.is_empty() { "_" } else { "" };
+        name.push(letter.to_ascii_lowercase());
     }
-}
-
-fn outcome(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Passed => "passed",
-        Outcome::Unchecked => "unchecked",
-        Outcome::Doubtful => "doubtful",
-        Outcome::Tension => "tension",
-        Outcome::Overlap => "overlap",
-        Outcome::Merged => "merged",
-        Outcome::Lost => "lost",
-        Outcome::ReachedCorner => "reached_corner",
-        Outcome::Apart => "apart",
-        Outcome::NotFound => "not_found",
-        _ => "other",
-    }
+    name
 }
 
 /// A solved contact.
@@ -180,9 +162,9 @@ impl Solution {
     }
 
     #[getter]
-    fn attempts(&self) -> Vec<(&'static str, &'static str)> {
+    fn attempts(&self) -> Vec<(String, String)> {
         let attempts = self.0.report().attempts().iter();
-        attempts.map(|attempt| (start(attempt.start), outcome(attempt.outcome))).collect()
+        attempts.map(|attempt| (name(attempt.start), name(attempt.outcome))).collect()
     }
 
     #[getter]

@@ -32,8 +32,8 @@ pub enum InputError<T: Real> {
         /// Fault of the profile.
         source: ProfileError<T>,
     },
-    /// The force of a [`Pair`](crate::Pair) is not known where its bodies stand: body 2 turns back or
-    /// is upside down, its place is not finite, or the contact is not found.
+    /// The force of a [`Pair`](crate::Pair) is not known where its bodies stand: body 2 turns back
+    /// or is upside down, its place is not finite, or the contact is not found.
     #[error(
         "seen from body 1, body 2 is at x = {}, y = {}, turned by {}: {}",
         six(*x), six(*y), six(*angle), source.to_string()

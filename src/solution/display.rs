@@ -15,10 +15,10 @@ fn interval<T: Real>(on: &Interval<T>, f: &mut Formatter<'_>) -> Result {
     write!(f, "[{left}, {right}]")
 }
 
-/// Returns a place, or zero if it is one to rounding, beside this length: those of largest values
-/// have half of the digits.
-fn place<T: Real>(x: T, length: T) -> T {
-    if x.abs() > T::of(8.0) * T::epsilon().sqrt() * length { x } else { T::zero() }
+/// Returns a place, or zero if it is zero to rounding, in a range of this width: a place of a
+/// largest value has half of the digits.
+fn place<T: Real>(x: T, width: T) -> T {
+    if x.abs() > T::epsilon().sqrt() * width { x } else { T::zero() }
 }
 
 /// Writes contacts, load, largest pressure and quality in three lines, and a warning of bodies that
@@ -29,7 +29,7 @@ impl<T: Real> Display for Solution<'_, T> {
         let contacts = self.intervals();
         if self.is_apart() {
             let [from, to] = self.solved().gap.range();
-            let x = place(self.a(), T::of(0.5) * (to - from));
+            let x = place(self.a(), to - from);
             let [by, x] = [self.separation(), x].map(|length| rounded(length, f));
             return write!(f, "apart by {by} at x = {x}, without load");
         }
@@ -48,7 +48,8 @@ impl<T: Real> Display for Solution<'_, T> {
         match self.peak() {
             Ok(peak) => {
                 f.write_str(", largest pressure ")?;
-                Peak { x: place(peak.x, self.hull().half_width()), ..peak }.fmt(f)?;
+                let on = self.hull();
+                Peak { x: place(peak.x, on.right - on.left), ..peak }.fmt(f)?;
             }
             Err(ContactError::Evaluation(EvaluationError::Singular { x })) => {
                 write!(f, ", pressure infinite at x = {}", rounded(x, f))?;

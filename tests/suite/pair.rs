@@ -320,7 +320,7 @@ fn poses_that_are_none_are_named_and_steep_contacts_are_said() {
         let error = pair.at(lower, upper).unwrap_err().to_string();
         assert!(error.ends_with(&format!("{says}: it must be finite")), "{error}");
     }
-    // What goes wrong in the contact is said of the pose: a disc as wide as the contact, bodies that
+    // What goes wrong in a contact is said of the pose: a disc as wide as the contact, bodies that
     // are pressed too deep.
     let small = References { upper: Reference::Disc(0.1), ..TO };
     let mut pinned = Pair::new(&Flat, &circle, (STEEL, STEEL), small);
