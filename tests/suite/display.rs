@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{Profile, join, on_flat, quartic};
-use linecontact::profile::Parabola;
+use linecontact::profile::{Ellipse, Parabola, Placed, Placement};
 use linecontact::stress::Stress;
 use linecontact::{
     Contact, Control, Cost, Curve, CurvePoint, Edge, Estimate, Extremum, Flat, Interval, Peak,
@@ -46,6 +46,24 @@ fn a_solution_in_three_lines() {
 
     let tilted = contact.solve(Control::CentreOfPressure { load: 0.02, at: 0.1 }).unwrap();
     assert!(tilted.to_string().contains("load 0.02, tilt -0.1, largest"), "{tilted}");
+}
+
+/// The place of the largest pressure has half of the digits, that of first touch the rounding.
+#[test]
+fn places_that_are_zero_to_rounding_are_written_so() {
+    let circle = Ellipse::circle(10.0, [-1.2, 1.2]).unwrap();
+    let contact = Contact::new(&Flat, &circle).unwrap();
+    for half_width in [0.2, 1.0] {
+        let solution = contact.solve(Control::HalfWidth(half_width)).unwrap();
+        let text = solution.to_string();
+        assert!(solution.peak().unwrap().x != 0.0 && text.contains(" at x = 0\n"), "{text}");
+    }
+    let touching = contact.solve(Control::Load(0.0)).unwrap();
+    assert!(touching.a() != 0.0);
+    assert_eq!(touching.to_string(), "apart by 0 at x = 0, without load");
+    let aside = Placed::new(circle, Placement::default().shifted(1e-6, 0.0)).unwrap();
+    let text = Contact::new(&Flat, &aside).unwrap().solve(Control::HalfWidth(0.2)).unwrap();
+    assert!(!text.to_string().contains(" at x = 0\n"), "{text}");
 }
 
 #[test]
