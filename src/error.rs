@@ -50,6 +50,9 @@ pub enum ContactError<T: Real> {
     Evaluation(#[from] EvaluationError<T>),
 }
 
+/// Result of a step of a solve.
+pub(crate) type Fallible<T, R> = Result<R, ContactError<T>>;
+
 /// Makes the errors of bodies and closed forms errors of the input.
 macro_rules! of_the_input {
     ($($error:ident)*) => {$(

@@ -119,6 +119,7 @@ mod sweep;
 pub use contact::{Contact, Control, EdgePressure};
 pub use edge::Edge;
 pub use ends::{Ends, Side};
+pub(crate) use error::Fallible;
 pub use error::{Body, ContactError, EvaluationError, InputError, SolveError};
 pub use finite_roller::{FiniteRoller, RollerSlice, RollerState};
 pub use gap::{Cost, Gap};

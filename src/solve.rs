@@ -30,7 +30,7 @@ use crate::contact::{Contact, Control, EdgePressure, check, check_positive, chec
 use crate::gap::{Asked, Cost, Gap};
 use crate::quadrature::{Engine, complete};
 use crate::solution::{ContactState, Outcome, Report, Solution, Solved, Start, certify};
-use crate::{ContactError, Edge, Ends, InputError, Interval, Real, SolveError};
+use crate::{ContactError, Edge, Ends, Fallible, InputError, Interval, Real, SolveError};
 pub(crate) use apart::first_touch;
 use by_load::{ByApproach, HalfWidth, Peak};
 use edges::{Conditions, Given};
@@ -59,7 +59,7 @@ impl<T: Real> Work<'_, T> {
     }
 
     /// Prepares the contacts found for their pressures, and keeps them for the next search.
-    fn keep(&mut self, gap: &Gap<'_, T>, hull: Interval<T>) -> Result<(), ContactError<T>> {
+    fn keep(&mut self, gap: &Gap<'_, T>, hull: Interval<T>) -> Fallible<T, ()> {
         let Self { integrator, workspace, cost } = self;
         integrator.ready(gap, hull)?;
         complete(integrator, gap, hull, cost)?;
@@ -102,10 +102,7 @@ impl<'b, T: Real> Contact<'b, T> {
         T::solve(self, control)
     }
 
-    pub(crate) fn solve_cold(
-        &self,
-        control: Control<T>,
-    ) -> Result<Solution<'b, T>, ContactError<T>> {
+    pub(crate) fn solve_cold(&self, control: Control<T>) -> Fallible<T, Solution<'b, T>> {
         let (mut integrator, mut workspace) = (Engine::new(self.quadrature)?, Workspace::new());
         let mut cost = Cost::default();
         let mut work =
@@ -136,7 +133,7 @@ pub(crate) fn find<'b, T: Real>(
     contact: &Contact<'b, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
-) -> Result<Found<'b, T>, ContactError<T>> {
+) -> Fallible<T, Found<'b, T>> {
     let found = contact.check(control).and_then(|()| find_checked(contact, control, work));
     *work.cost += work.integrator.cost();
     found.map_err(|error| error.with_stiffness(contact.has_default_stiffness()))
@@ -147,7 +144,7 @@ fn find_checked<'b, T: Real>(
     contact: &Contact<'b, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
-) -> Result<Found<'b, T>, ContactError<T>> {
+) -> Fallible<T, Found<'b, T>> {
     (work.workspace.report, work.workspace.cell_work) = (Report::new(), 0);
     let kernel = bending::kernel(contact, control)?;
     let repeated = contact.repeated(work.cost)?;
@@ -189,7 +186,7 @@ fn certified<T: Real>(
     gap: &Gap<'_, T>,
     found: &ContactState<T>,
     integrator: &Engine<T>,
-) -> Result<(), ContactError<T>> {
+) -> Fallible<T, ()> {
     if contact.certified {
         certify(Solved { gap, integrator, kappa: contact.kappa, found })?;
     }
@@ -201,7 +198,7 @@ fn find_under<T: Real>(
     contact: &Contact<'_, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
-) -> Result<ContactState<T>, ContactError<T>> {
+) -> Fallible<T, ContactState<T>> {
     match (control, contact.edge_pressure) {
         (Control::Load(load), Some(wanted)) => {
             let found = by_edge_pressure(contact, wanted, load, work);
@@ -238,7 +235,7 @@ fn find_under<T: Real>(
 
 /// Finds the contacts that meet some conditions: limits in equilibrium, a check, and another set of
 /// contacts at its fault, until there is none.
-fn settle<T: Real>(search: &mut Search<'_, '_, '_, T>) -> Result<ContactState<T>, ContactError<T>> {
+fn settle<T: Real>(search: &mut Search<'_, '_, '_, T>) -> Fallible<T, ContactState<T>> {
     let mut start = search.first()?;
     for _ in 0..MAX_SETS {
         let fault = match search.equilibrium(start) {
@@ -258,7 +255,7 @@ fn may_have_several<T: Real>(
     contact: &Contact<'_, T>,
     error: &ContactError<T>,
     work: &mut Work<'_, T>,
-) -> Result<bool, ContactError<T>> {
+) -> Fallible<T, bool> {
     use SolveError::{HalfWidthTooLarge, NoEquilibrium, Overlap, Tension};
     if contact.single_interval || !work.may_find_several(contact) {
         return Ok(false);
@@ -281,7 +278,7 @@ fn by_edge_pressure<T: Real>(
     wanted: EdgePressure<T>,
     load: T,
     work: &mut Work<'_, T>,
-) -> Result<ContactState<T>, ContactError<T>> {
+) -> Fallible<T, ContactState<T>> {
     let kappa = contact.kappa;
     wanted.check()?;
     check_positive("load", load)?;

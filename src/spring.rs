@@ -12,7 +12,8 @@ use crate::contact::check_given;
 use crate::real::same;
 use crate::solution::Approaching;
 use crate::{
-    Contact, ContactError, Control, EvaluationError, InputError, Real, References, Solution, Solver,
+    Contact, ContactError, Control, EvaluationError, Fallible, InputError, Real, References,
+    Solution, Solver,
 };
 use std::collections::VecDeque;
 
@@ -288,10 +289,7 @@ impl<T: Real> SpringTable<T> {
 }
 
 /// Returns the point of a solution.
-fn node<T: Real>(
-    solution: &Solution<'_, T>,
-    references: &References<T>,
-) -> Result<Node<T>, ContactError<T>> {
+fn node<T: Real>(solution: &Solution<'_, T>, references: &References<T>) -> Fallible<T, Node<T>> {
     let approaching = Approaching::new(solution.solved(), solution.elasticity, references)?;
     let [approach, rate] = approaching.with_rate()?;
     let (load, rates) = (solution.load(), solution.load_rates()?);

@@ -24,7 +24,7 @@ mod potential;
 
 use crate::kernel::Kernel;
 use crate::numerics::dot;
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, Fallible, Interval, Real};
 use forces::{line, sum};
 use potential::{CellPlace, Potential};
 use std::cmp::Ordering::Equal;
@@ -113,7 +113,7 @@ pub(super) enum NotFound<T: Real> {
     Unsettled { solves: usize },
 }
 
-type Height<'h, T> = &'h mut dyn FnMut(T) -> Result<T, ContactError<T>>;
+type Height<'h, T> = &'h mut dyn FnMut(T) -> Fallible<T, T>;
 
 /// Finds the contacts of a scene from the height of the gap at any x of the range; adds to the
 /// `work` of the search.

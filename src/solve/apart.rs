@@ -9,7 +9,7 @@ use super::{Contact, Control, Work, Workspace};
 use crate::gap::{Asked, Cost, Gap, Sampler};
 use crate::real::same;
 use crate::solution::{Approaching, ContactState, Outcome, Solved, Start};
-use crate::{ContactError, Edge, EvaluationError, Interval, Real, SolveError};
+use crate::{ContactError, Edge, EvaluationError, Fallible, Interval, Real, SolveError};
 
 /// Returns the state of bodies that are not pressed together under a control; `None` if they are,
 /// or if an edge may pull or is held.
@@ -18,7 +18,7 @@ pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
-) -> Result<Option<ContactState<T>>, ContactError<T>> {
+) -> Fallible<T, Option<ContactState<T>>> {
     let zero = T::zero();
     // A difference has no negative zero.
     let at = match control {
@@ -43,7 +43,7 @@ fn lifted<T: Real>(
     control: Control<T>,
     [load, separation]: [T; 2],
     work: &mut Work<'_, T>,
-) -> Result<Option<ContactState<T>>, ContactError<T>> {
+) -> Fallible<T, Option<ContactState<T>>> {
     let edges = contact.checked_edges()?;
     let may_lift = |edge| matches!(edge, Edge::Free | Edge::FreeUntil(_));
     if contact.edge_pressure.is_some() || !edges.into_iter().all(may_lift) {
@@ -69,7 +69,7 @@ pub(crate) fn first_touch<T: Real>(
     contact: &Contact<'_, T>,
     workspace: &mut Workspace<T>,
     cost: &mut Cost,
-) -> Result<T, ContactError<T>> {
+) -> Fallible<T, T> {
     let (gap, ends) = (&contact.gap, contact.ends());
     // Heights as close as under a load that would flatten half the digits of the bodies.
     let aside = ContactState::least_height(gap.range());
@@ -112,7 +112,7 @@ fn differentiated<T: Real>(
     gap: &Gap<'_, T>,
     mut place: T,
     aside: T,
-) -> Result<T, ContactError<T>> {
+) -> Fallible<T, T> {
     for _ in 0..T::DERIVATIVE_ORDER {
         let x = place.component(0);
         let rise = sampler.slope(gap, x + aside)? - sampler.slope(gap, x - aside)?;

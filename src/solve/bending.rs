@@ -19,7 +19,7 @@ use super::{Contact, Control, Work, find_under};
 use crate::gap::Gap;
 use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
 use crate::solution::{ContactState, Integrals, Report, Solved};
-use crate::{ContactError, Edge, Ends, InputError, Interval, Real, Side, SolveError};
+use crate::{ContactError, Edge, Ends, Fallible, InputError, Interval, Real, Side, SolveError};
 use cells::line_of_load;
 
 /// Contacts solved before the search is given up.
@@ -53,7 +53,7 @@ const MOST_TIMES: f64 = 2.0;
 pub(super) fn kernel<'b, T: Real>(
     contact: &Contact<'b, T>,
     control: Control<T>,
-) -> Result<Option<Box<Kernel<'b, T>>>, ContactError<T>> {
+) -> Fallible<T, Option<Box<Kernel<'b, T>>>> {
     let Some(kernel) = contact.kernel_of_bodies()? else { return Ok(None) };
     let refuse = |why| Err(InputError::KernelNotSupported { why }.into());
     if contact.edges.are_adhesive() {
@@ -89,7 +89,7 @@ pub(super) fn find<'b, T: Real>(
     kernel: &Kernel<'b, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
-) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
+) -> Fallible<T, (ContactState<T>, Gap<'b, T>)> {
     if let Control::Approach { approach, references } = control {
         let bodies = contact.elasticity()?.ok_or(InputError::NoMaterials)?;
         let by = ByApproach { references, bodies };
@@ -138,7 +138,7 @@ fn from_last<'b, T: Real>(
     kernel: &Kernel<'b, T>,
     control: Control<T>,
     work: &mut Work<'_, T>,
-) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
+) -> Fallible<T, (ContactState<T>, Gap<'b, T>)> {
     let spreads = warm(std::mem::take(&mut work.workspace.spreads), control);
     let (before, one) = (T::one() / T::zero(), T::one());
     let [from, target] = [Vec::new(), Vec::new()];
@@ -249,7 +249,7 @@ struct Solve<'b, T: Real> {
 }
 
 impl<'b, T: Real> Bending<'_, '_, 'b, T> {
-    fn find(&mut self) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
+    fn find(&mut self) -> Fallible<T, (ContactState<T>, Gap<'b, T>)> {
         if let Control::HalfWidth(half_width) = self.control
             && fills(&self.kernel, half_width)
         {
@@ -313,7 +313,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     }
 
     /// Goes on from a solve that failed.
-    fn recover(&mut self, error: ContactError<T>) -> Result<(), ContactError<T>> {
+    fn recover(&mut self, error: ContactError<T>) -> Fallible<T, ()> {
         if ends(&error) {
             return Err(error);
         }
@@ -344,7 +344,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     }
 
     /// Refuses a contact that is some times too wide beside the kernel.
-    fn check_width(&self, on: Interval<T>, times: f64) -> Result<(), ContactError<T>> {
+    fn check_width(&self, on: Interval<T>, times: f64) -> Fallible<T, ()> {
         let Some(distance) = self.kernel.layer_distance() else { return Ok(()) };
         let thickness = T::of(0.5) * distance;
         let (ratio, limit) = (on.half_width() / thickness, T::of(THINNEST));
@@ -355,7 +355,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     }
 
     /// Takes the whole correction of a solve with this residual.
-    fn step_to(&mut self, target: Vec<Spread<T>>, residual: T) -> Result<(), ContactError<T>> {
+    fn step_to(&mut self, target: Vec<Spread<T>>, residual: T) -> Fallible<T, ()> {
         self.from = std::mem::replace(&mut self.spreads, target.clone());
         (self.target, self.part, self.before) = (target, T::one(), residual);
         self.cut()
@@ -378,7 +378,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     }
 
     /// Takes the start from cells, or else a shorter step, if there was a step.
-    fn less(&mut self) -> Result<(), ContactError<T>> {
+    fn less(&mut self) -> Fallible<T, ()> {
         if !std::mem::replace(&mut self.has_cells, true) && self.begin_with_cells()? {
             return Ok(());
         }
@@ -391,7 +391,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     }
 
     /// Finds the contact of the bent bodies.
-    fn solve(&mut self) -> Result<Solve<'b, T>, ContactError<T>> {
+    fn solve(&mut self) -> Fallible<T, Solve<'b, T>> {
         let (kappa, is_checked, is_last) =
             (self.contact.kappa, self.is_checked, self.has_converged);
         let gap = match (self.bent.take(), hull(&self.spreads)) {
@@ -422,7 +422,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     }
 
     /// Corrects the pressures of a solve.
-    fn correct(&mut self, solved: &Solve<'b, T>) -> Result<Option<Correction<T>>, ContactError<T>> {
+    fn correct(&mut self, solved: &Solve<'b, T>) -> Fallible<T, Option<Correction<T>>> {
         let (found, kappa) = (&solved.found, self.contact.kappa);
         let gap = &solved.gap.tilted(found.tilt);
         let pressures = Solved { gap, integrator: &*self.work.integrator, kappa, found };

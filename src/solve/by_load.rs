@@ -25,7 +25,7 @@ use crate::gap::{Asked, Gap};
 use crate::kernel::Kernel;
 use crate::search::SearchError;
 use crate::solution::{ContactState, Report, Solved};
-use crate::{ContactError, Ends, EvaluationError, Interval, Real, SolveError};
+use crate::{ContactError, Ends, EvaluationError, Fallible, Interval, Real, SolveError};
 pub(super) use approach::ByApproach;
 pub(super) use half_width::HalfWidth;
 pub(super) use peak::Peak;
@@ -52,15 +52,15 @@ const MAX_FACTOR: f64 = 1e12;
 
 /// Value of a quantity, its derivative by the load, and its relative error from other sources than
 /// the limits.
-type Value<T> = Result<[T; 3], ContactError<T>>;
+type Value<T> = Fallible<T, [T; 3]>;
 
 /// Conclusion from a failed trial: the widest contact, which has the wanted value, or an estimate.
-type Bound<T> = Result<ControlFlow<ContactState<T>, Point<T>>, ContactError<T>>;
+type Bound<T> = Fallible<T, ControlFlow<ContactState<T>, Point<T>>>;
 
 /// Quantity that is given instead of the load.
 pub(super) trait Quantity<T: Real> {
     /// Returns the load to try first.
-    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Result<T, ContactError<T>>;
+    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Fallible<T, T>;
 
     /// Returns the value in a contact found.
     fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, '_, T>) -> Value<T>;
@@ -124,7 +124,7 @@ pub(super) fn find<T: Real>(
     quantity: &dyn Quantity<T>,
     asked: (&'static str, T),
     work: &mut Work<'_, T>,
-) -> Result<ContactState<T>, ContactError<T>> {
+) -> Fallible<T, ContactState<T>> {
     find_of(contact, None, quantity, asked, work).map(|(found, _)| found)
 }
 
@@ -135,7 +135,7 @@ pub(super) fn find_of<'b, T: Real>(
     quantity: &dyn Quantity<T>,
     (name, wanted): (&'static str, T),
     work: &mut Work<'_, T>,
-) -> Result<(ContactState<T>, Gap<'b, T>), ContactError<T>> {
+) -> Fallible<T, (ContactState<T>, Gap<'b, T>)> {
     check_positive(name, wanted)?;
     let (follows, low, high, fault) = (quantity.may_fall(contact), None, None, None);
     let steps = [T::one() / T::zero(); 2];
@@ -159,7 +159,7 @@ pub(super) fn find_of<'b, T: Real>(
 }
 
 impl<T: Real> ByLoad<'_, '_, '_, T> {
-    fn run(&mut self) -> Result<ContactState<T>, ContactError<T>> {
+    fn run(&mut self) -> Fallible<T, ContactState<T>> {
         let mut first = self.quantity.first_load(self)?;
         first *= if self.follows { T::of(FIRST_TOUCH) } else { T::one() };
         let mut load = first;
@@ -239,7 +239,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
 
     /// Returns the load for a request by the survey of the bodies. If that is zero, or a start or
     /// convexity make Hertz good enough, the load is that of a contact as wide as the start.
-    fn surveyed(&mut self, asked: Asked<T>, or_hertz: bool) -> Result<T, ContactError<T>> {
+    fn surveyed(&mut self, asked: Asked<T>, or_hertz: bool) -> Fallible<T, T> {
         let (Contact { gap, kappa, start, .. }, work) = (self.contact, &mut *self.work);
         let ([left, right], start) = (gap.range(), work.workspace.hull().or(*start));
         let half_width = start.map_or(T::of(1.0 / 64.0) * (right - left), |on| on.half_width());
@@ -259,7 +259,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
 
     /// Finds the contact under a load, and the quantity: if that is followed, under a load up to
     /// which it rises.
-    fn at(&mut self, mut load: T) -> Result<(ContactState<T>, Point<T>), ContactError<T>> {
+    fn at(&mut self, mut load: T) -> Fallible<T, (ContactState<T>, Point<T>)> {
         let mut is_aside = false;
         loop {
             let found = self.solve(self.contact.under(load)?)?;
@@ -291,7 +291,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
     }
 
     /// Finds the contacts under some conditions, ready for their pressures.
-    fn solve(&mut self, conditions: Conditions<T>) -> Result<ContactState<T>, ContactError<T>> {
+    fn solve(&mut self, conditions: Conditions<T>) -> Fallible<T, ContactState<T>> {
         let Self { contact, work, .. } = self;
         if let Some(kernel) = self.kernel {
             let control = Control::Load(conditions.load());

@@ -4,7 +4,7 @@ use super::EdgePressure;
 use super::edges::Conditions;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Engine, LoadCase, Moments, complete};
-use crate::{ContactError, Ends, InputError, Interval, Real, Side};
+use crate::{Ends, Fallible, InputError, Interval, Real, Side};
 
 /// Conditions at the edges, as two numbers to be brought to zero.
 #[derive(Clone, Copy)]
@@ -108,7 +108,7 @@ impl<T: Real> Equations<T> {
     }
 
     /// Checks that the conditions can be evaluated on bodies that cover this range of x.
-    pub fn check(&self, range: [T; 2]) -> Result<(), ContactError<T>> {
+    pub fn check(&self, range: [T; 2]) -> Fallible<T, ()> {
         if let Self::Pressure { wanted, .. } = self {
             for (name, value) in [("ε_a", wanted.distance_a), ("ε_b", wanted.distance_b)] {
                 if value >= range[1] - range[0] {
@@ -134,7 +134,7 @@ impl<T: Real> Equations<T> {
         on: Interval<T>,
         integrator: &mut Engine<T>,
         cost: &mut Cost,
-    ) -> Result<Residual<T>, ContactError<T>> {
+    ) -> Fallible<T, Residual<T>> {
         match *self {
             Self::Strength { conditions, load } => {
                 let m = integrator.moments(gap, on)?;
@@ -202,7 +202,7 @@ fn of_pressures<T: Real>(
     on: Interval<T>,
     integrator: &mut Engine<T>,
     cost: &mut Cost,
-) -> Result<Residual<T>, ContactError<T>> {
+) -> Fallible<T, Residual<T>> {
     let (two, [x_b, x_a]) = (T::of(2.0), wanted.places(on));
     for (name, value, x, end) in
         [("ε_a", wanted.distance_a, x_a, on.right), ("ε_b", wanted.distance_b, x_b, on.left)]
@@ -215,7 +215,7 @@ fn of_pressures<T: Real>(
     complete(integrator, gap, on, cost)?;
     let load_case = LoadCase { kappa, load, free: Ends::both(false) };
     let mut error = T::zero();
-    let mut residual = |x, pressure| -> Result<T, ContactError<T>> {
+    let mut residual = |x, pressure| -> Fallible<T, T> {
         let estimate = integrator.estimate(gap, &load_case, x, cost)?;
         let root = T::pi() * on.chebyshev_weight(x);
         error += root * estimate.error / load;

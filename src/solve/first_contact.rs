@@ -3,7 +3,7 @@
 
 use crate::gap::{Gap, Sampler};
 use crate::search::{Bracket, Brent, SearchError, TryFindError, try_find};
-use crate::{ContactError, Interval, Real, Side, SolveError};
+use crate::{ContactError, Fallible, Interval, Real, Side, SolveError};
 
 /// Two abscissae and the slope of the gap there.
 struct Signs<T> {
@@ -17,7 +17,7 @@ pub(super) fn first_contact<T: Real>(
     sampler: &mut Sampler<T>,
     gap: &Gap<'_, T>,
     start: Option<Interval<T>>,
-) -> Result<T, ContactError<T>> {
+) -> Fallible<T, T> {
     let range = gap.range();
     let mut signs = widen(sampler, gap, Interval { left: range[0], right: range[1] }, start)?;
     match jump(sampler, gap, &mut signs)? {
@@ -33,7 +33,7 @@ fn widen<T: Real>(
     gap: &Gap<'_, T>,
     whole: Interval<T>,
     start: Option<Interval<T>>,
-) -> Result<Signs<T>, ContactError<T>> {
+) -> Fallible<T, Signs<T>> {
     let (zero, half) = (T::zero(), T::of(0.5));
     let quarter = T::of(0.25) * whole.half_width();
     let middle = Interval { left: whole.centre() - quarter, right: whole.centre() + quarter };
@@ -71,7 +71,7 @@ fn scan<T: Real>(
     gap: &Gap<'_, T>,
     start: Interval<T>,
     not_found: ContactError<T>,
-) -> Result<Signs<T>, ContactError<T>> {
+) -> Fallible<T, Signs<T>> {
     const SCAN_STEPS: usize = 32;
     let step = (start.right - start.left) / T::count(SCAN_STEPS);
     let mut left = (start.left, sampler.slope(gap, start.left)?);
@@ -92,7 +92,7 @@ fn jump<T: Real>(
     sampler: &mut Sampler<T>,
     gap: &Gap<'_, T>,
     Signs { x, slope }: &mut Signs<T>,
-) -> Result<Option<T>, ContactError<T>> {
+) -> Fallible<T, Option<T>> {
     let mut after = x[0];
     while let Some(breakpoint) = gap.breakpoint_after(after).filter(|&breakpoint| breakpoint < x[1])
     {
@@ -117,7 +117,7 @@ fn zero<T: Real>(
     gap: &Gap<'_, T>,
     Signs { x, slope }: Signs<T>,
     is_about_contact: bool,
-) -> Result<T, ContactError<T>> {
+) -> Fallible<T, T> {
     // Near x = 0 a relative tolerance never ends the search; for the share of the bracket, plus
     // one, it does.
     let [one, width] = [T::one(), x[1] - x[0]];

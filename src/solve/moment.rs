@@ -8,7 +8,7 @@ use super::edges::{Conditions, Given};
 use super::topology;
 use super::{Contact, Work};
 use crate::solution::ContactState;
-use crate::{ContactError, InputError, Interval, Real, SolveError};
+use crate::{Fallible, InputError, Interval, Real, SolveError};
 
 /// Line of action of a load.
 #[derive(Clone, Copy)]
@@ -20,7 +20,7 @@ pub(super) struct LineOfLoad<T> {
 }
 
 impl<T: Real> LineOfLoad<T> {
-    pub fn of_moment(load: T, moment: T, about: T) -> Result<Self, ContactError<T>> {
+    pub fn of_moment(load: T, moment: T, about: T) -> Fallible<T, Self> {
         if let Some(&value) = [moment, about].iter().find(|value| !value.is_finite()) {
             return Err(InputError::InvalidMoment { value }.into());
         }
@@ -29,7 +29,7 @@ impl<T: Real> LineOfLoad<T> {
         Ok(Self { rounding, ..Self::through(load, about + arm)? })
     }
 
-    pub fn through(load: T, at: T) -> Result<Self, ContactError<T>> {
+    pub fn through(load: T, at: T) -> Fallible<T, Self> {
         super::check_positive("load", load)?;
         if !at.is_finite() {
             return Err(InputError::InvalidMoment { value: at }.into());
@@ -43,7 +43,7 @@ pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     line: LineOfLoad<T>,
     work: &mut Work<'_, T>,
-) -> Result<ContactState<T>, ContactError<T>> {
+) -> Fallible<T, ContactState<T>> {
     let edges = contact.checked_edges()?;
     let refuse = |why| Err(InputError::TiltNotSupported { why }.into());
     if edges.are_adhesive() {

@@ -30,7 +30,7 @@ use super::first_contact::first_contact;
 use crate::gap::{Cost, Gap, Sampler};
 use crate::quadrature::Engine;
 use crate::search::{Bracket, LimitSearch, try_find};
-use crate::{ContactError, Ends, Interval, Real, SolveError};
+use crate::{ContactError, Ends, Fallible, Interval, Real, SolveError};
 use centre::Centred;
 use derivatives::differentiate;
 
@@ -56,7 +56,7 @@ pub(super) fn find<T: Real>(
     integrator: &mut Engine<T>,
     start: Option<Interval<T>>,
     cost: &mut Cost,
-) -> Result<Nested<T>, ContactError<T>> {
+) -> Fallible<T, Nested<T>> {
     let gap = &contact.gap;
     let range = gap.range();
     if let Equations::Strength {
@@ -102,7 +102,7 @@ fn place<T: Real>(
     half_width: T,
     start: Option<Interval<T>>,
     cost: &mut Cost,
-) -> Result<Nested<T>, ContactError<T>> {
+) -> Fallible<T, Nested<T>> {
     let gap = &contact.gap;
     let mut sampler = Sampler::default();
     let first = first_contact(&mut sampler, gap, start);
@@ -194,7 +194,7 @@ impl<'s, T: Real> NestedSearch<'s, T> {
         }
     }
 
-    fn attempt(&mut self, on: Interval<T>) -> Result<TrialContact<T>, ContactError<T>> {
+    fn attempt(&mut self, on: Interval<T>) -> Fallible<T, TrialContact<T>> {
         // Panels much wider than the contact are less accurate than they seem.
         let covered =
             self.integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
@@ -214,8 +214,8 @@ impl<'s, T: Real> NestedSearch<'s, T> {
         bracket: &Bracket<T>,
         best: &mut TrialContact<T>,
         condition: fn(&Residual<T>) -> T,
-        mut attempt: impl FnMut(&mut Self, T) -> Result<TrialContact<T>, ContactError<T>>,
-    ) -> Result<TrialContact<T>, ContactError<T>> {
+        mut attempt: impl FnMut(&mut Self, T) -> Fallible<T, TrialContact<T>>,
+    ) -> Fallible<T, TrialContact<T>> {
         let strategy = self.strategy;
         let resolution = self.resolution();
         let falls = bracket.values.is_some_and(|[at_lo, _]| at_lo > T::zero());

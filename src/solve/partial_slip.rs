@@ -3,11 +3,11 @@
 use crate::contact::{Contact, Edge};
 use crate::material::Elasticity;
 use crate::solution::{Shear, Solution};
-use crate::{ContactError, InputError, Real, SolveError};
+use crate::{Fallible, InputError, Real, SolveError};
 
 impl<'b, T: Real> Contact<'b, T> {
     /// Checks that partial slip can be solved for this shear.
-    pub(crate) fn check_shear(&self, shear: &Shear<T>) -> Result<(), ContactError<T>> {
+    pub(crate) fn check_shear(&self, shear: &Shear<T>) -> Fallible<T, ()> {
         let Shear { friction, force, tension } = *shear;
         if !(friction.is_finite() && friction > T::zero()) {
             return Err(InputError::InvalidSlipFriction { friction }.into());
@@ -38,7 +38,7 @@ impl<'b, T: Real> Contact<'b, T> {
         &self,
         normal: &Solution<'b, T>,
         shear: &Shear<T>,
-    ) -> Result<(Self, T), ContactError<T>> {
+    ) -> Fallible<T, (Self, T)> {
         let Shear { friction, force, tension } = *shear;
         let (load, limit) = (normal.load(), friction * normal.load());
         if force.abs() >= limit {

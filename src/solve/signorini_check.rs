@@ -16,7 +16,7 @@ use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::PanelIntegrator;
 use crate::quadrature::{Integrator, LoadCase};
 use crate::solution::{Closeness, ContactState, Inside, Tensions};
-use crate::{ContactError, Ends, Extremum, Interval, Real, Side};
+use crate::{Ends, Extremum, Fallible, Interval, Real, Side};
 pub(super) use outside::Overlaps;
 pub(super) use passed::{Passed, Under};
 use std::cmp::Ordering;
@@ -91,7 +91,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Computes the series of the pressure in each contact.
-    pub fn fields(&self, fields: &mut ExteriorFields<T>) -> Result<(), ContactError<T>> {
+    pub fn fields(&self, fields: &mut ExteriorFields<T>) -> Fallible<T, ()> {
         fields.each.clear();
         for (i, &on) in self.contacts.iter().enumerate() {
             let x = std::array::from_fn(|i| ExteriorField::place(on, i, POINTS));
@@ -105,14 +105,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(())
     }
 
-    fn pressures(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+    fn pressures(&self, x: &[T], pressures: &mut [T]) -> Fallible<T, ()> {
         let cost = &mut Cost::default();
         self.panels.pressures(self.gap, &self.load_case(), x, pressures, cost)
     }
 
     /// Takes more pressures in contacts whose series leave more than a share of the load uncertain:
     /// they hide many waves, or kinks. Tells whether there were any. Sums up all series.
-    fn resolve(&self, fields: &mut ExteriorFields<T>, share: T) -> Result<bool, ContactError<T>> {
+    fn resolve(&self, fields: &mut ExteriorFields<T>, share: T) -> Fallible<T, bool> {
         let mut is_finer = false;
         // The outermost of N places is `L (π/N)²/8` from a limit, which may be far from the origin.
         let is_apart = |on: Interval<T>, count: usize| {
@@ -141,7 +141,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
 
     /// Adds to the uncertainty of a series what a corner just inside a limit does: the pressure
     /// falls there from that of a held limit, like a logarithm.
-    fn doubt_at_corners(&self, field: &mut ExteriorField<T>) -> Result<(), ContactError<T>> {
+    fn doubt_at_corners(&self, field: &mut ExteriorField<T>) -> Fallible<T, ()> {
         let (on, count) = (field.on, T::count(field.coefficients().len()));
         // Place i lies (2 i + 1)² times as far from the limit as the first.
         let fourth = T::of(49.0 / 8.0) * (T::pi() / count).powi(2) * on.half_width();
@@ -177,7 +177,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         &self,
         fields: &mut ExteriorFields<T>,
         TensionSpans { spans: tension_spans, tensions, uneven }: &mut TensionSpans<T>,
-    ) -> Result<Option<[T; 2]>, ContactError<T>> {
+    ) -> Fallible<T, Option<[T; 2]>> {
         tension_spans.clear();
         let adhesive = self.found.adhesive != Ends::both(false);
         let is_same = |(one, other): (&Interval<T>, &Interval<T>)| one.is_same(other);
@@ -224,7 +224,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         field: &ExteriorField<T>,
         found: &mut Tensions<T>,
         uneven: &mut Vec<[T; 2]>,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         let on = field.on;
         let mean = field.load().abs() / on.half_width();
         // The uncertainty of a pressure is estimated afterwards.
@@ -248,7 +248,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
 
     /// Returns the nearest place with pressure to one without, among places each twice as far away
     /// as the one before; or else the end of the contact.
-    fn presses_from(&self, x: T, side: Side) -> Result<T, ContactError<T>> {
+    fn presses_from(&self, x: T, side: Side) -> Fallible<T, T> {
         let on = self.contacts.iter().find(|on| on.contains(x)).unwrap_or(&self.found.interval);
         let end = on[side];
         let share = |times: i32| T::of(0.5).powi(times);

@@ -24,7 +24,7 @@ use super::one_by_one;
 use crate::gap::{Cost, Survey};
 use crate::quadrature::{Engine, Moments};
 use crate::solution::ContactState;
-use crate::{ContactError, InputError, Interval, ProfileError, Real, SolveError};
+use crate::{ContactError, Fallible, InputError, Interval, ProfileError, Real, SolveError};
 
 /// Largest uncertainty of a contact, as a share of the half-width, to count as found.
 pub(super) const MAX_DOUBT: f64 = 0.03;
@@ -67,7 +67,7 @@ enum Elsewhere {
 
 impl<T: Real> Single<'_, '_, T> {
     /// Finds the contact with edges that are each either fixed or not, first around the last one.
-    pub fn find(&mut self, last: Option<Interval<T>>) -> Result<ContactState<T>, ContactError<T>> {
+    pub fn find(&mut self, last: Option<Interval<T>>) -> Fallible<T, ContactState<T>> {
         let Conditions { edges, given, .. } = self.conditions;
         let pulled = matches!(given, Given::Load(load) if load <= T::zero());
         let adhesive = edges.are_adhesive();
@@ -79,7 +79,7 @@ impl<T: Real> Single<'_, '_, T> {
     }
 
     /// Finds the contact under a load that presses, with edges that are each either fixed or not.
-    fn press(&mut self, last: Option<Interval<T>>) -> Result<ContactState<T>, ContactError<T>> {
+    fn press(&mut self, last: Option<Interval<T>>) -> Fallible<T, ContactState<T>> {
         let (gap, range) = (&self.contact.gap, self.contact.gap.range());
         if let Some(on) = self.conditions.both_limits() {
             return self.given(on);
@@ -115,10 +115,7 @@ impl<T: Real> Single<'_, '_, T> {
     }
 
     /// Finds the contact by Newton's method; `None` if it goes astray.
-    fn by_newton(
-        &mut self,
-        last: Option<Interval<T>>,
-    ) -> Result<Option<Converged<T>>, ContactError<T>> {
+    fn by_newton(&mut self, last: Option<Interval<T>>) -> Fallible<T, Option<Converged<T>>> {
         if let Some(last) = last {
             // Samples of the last load serve for the next one. Around the contact of another scene
             // an error means nothing, unless it is that the bodies bear less.
@@ -160,11 +157,7 @@ impl<T: Real> Single<'_, '_, T> {
 
     /// Runs Newton's method on the samples at hand. If it leads to an end of the bodies time and
     /// again, the load may exceed their capacity.
-    fn converge(
-        &mut self,
-        from: Interval<T>,
-        effort: Effort,
-    ) -> Result<Verdict<T>, ContactError<T>> {
+    fn converge(&mut self, from: Interval<T>, effort: Effort) -> Fallible<T, Verdict<T>> {
         let (integrator, gap, conditions) =
             (&mut **self.integrator, &self.contact.gap, &self.conditions);
         let most_at_end = MAX_AT_END[usize::from(effort == Effort::Full)];
@@ -181,7 +174,7 @@ impl<T: Real> Single<'_, '_, T> {
     }
 
     /// Finds the contact by one limit at a time.
-    fn by_nested_search(&mut self) -> Result<ContactState<T>, ContactError<T>> {
+    fn by_nested_search(&mut self) -> Fallible<T, ContactState<T>> {
         self.integrator.clear_samples();
         let (contact, conditions, gap) = (self.contact, self.conditions, &self.contact.gap);
         let equations = Equations::Strength { conditions, load: conditions.load() };
@@ -204,7 +197,7 @@ impl<T: Real> Single<'_, '_, T> {
     }
 
     /// Returns the contact between two known limits. The load is sought unless given.
-    fn given(&mut self, on: Interval<T>) -> Result<ContactState<T>, ContactError<T>> {
+    fn given(&mut self, on: Interval<T>) -> Fallible<T, ContactState<T>> {
         let (gap, range, conditions) =
             (&self.contact.gap, self.contact.gap.range(), &self.conditions);
         super::check(on)?;
@@ -235,7 +228,7 @@ impl<T: Real> Single<'_, '_, T> {
     }
 
     /// Returns the contact on which Newton's method has converged.
-    fn contact_of(&mut self, converged: Converged<T>) -> Result<ContactState<T>, ContactError<T>> {
+    fn contact_of(&mut self, converged: Converged<T>) -> Fallible<T, ContactState<T>> {
         let (Converged { on, load, error, load_error }, conditions) = (converged, &self.conditions);
         let m = self.integrator.moments(&self.contact.gap, on)?;
         let load = match conditions.given {
@@ -250,7 +243,7 @@ impl<T: Real> Single<'_, '_, T> {
 
     /// Returns the load of a contact of given width, if rounding of the limits changes it by less
     /// than its own size: on a flat, such a contact lies anywhere and bears nothing.
-    fn known(&self, on: Interval<T>, load: T, m: &Moments<T>) -> Result<T, ContactError<T>> {
+    fn known(&self, on: Interval<T>, load: T, m: &Moments<T>) -> Fallible<T, T> {
         let (half_width, stiffness) = (on.half_width(), self.conditions.kappa * on.half_width());
         let rate = m.derivatives.map(|rates| rates.by_1.abs() + rates.by_2.abs());
         let rounding = T::epsilon() * on.left.abs().max(on.right.abs());
@@ -262,11 +255,7 @@ impl<T: Real> Single<'_, '_, T> {
     }
 
     /// Samples a span around a contact that is nearly right, and finds the limits on it.
-    fn in_full(
-        &mut self,
-        guess: Interval<T>,
-        doubt: T,
-    ) -> Result<Option<Converged<T>>, ContactError<T>> {
+    fn in_full(&mut self, guess: Interval<T>, doubt: T) -> Fallible<T, Option<Converged<T>>> {
         let gap = &self.contact.gap;
         let (mut guess, mut best) = (guess.plain(), None);
         for _ in 0..3 {
@@ -289,7 +278,7 @@ impl<T: Real> Single<'_, '_, T> {
 
     /// Tells whether the bodies bear the load or width; false if that is unknown. Fails if it is
     /// too large.
-    fn may_bear(&mut self) -> Result<bool, ContactError<T>> {
+    fn may_bear(&mut self) -> Fallible<T, bool> {
         // One of several contacts bears part of the load, and bodies that turn another one.
         if !self.is_alone || self.conditions.at().is_some() {
             return Ok(self.is_alone);

@@ -23,7 +23,7 @@ use super::single_contact::Single;
 use super::{Contact, Work, settle};
 use crate::gap::{Asked, Survey};
 use crate::solution::{ContactState, Start};
-use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
+use crate::{ContactError, Ends, Fallible, Interval, Real, Side, SolveError};
 pub(super) use bears::up_to_corner;
 pub(crate) use workspace::Workspace;
 
@@ -40,7 +40,7 @@ pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     conditions: Conditions<T>,
     work: &mut Work<'_, T>,
-) -> Result<ContactState<T>, ContactError<T>> {
+) -> Fallible<T, ContactState<T>> {
     contact.checked_edges()?;
     work.workspace.look_for_features(&contact.gap);
     let mut search = Search::new(contact, conditions, work);
@@ -112,7 +112,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     }
 
     /// Returns the first start.
-    pub(super) fn first(&mut self) -> Result<Start, ContactError<T>> {
+    pub(super) fn first(&mut self) -> Fallible<T, Start> {
         if self.contact.single_interval {
             return Ok(self.start_of_one());
         }
@@ -131,7 +131,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
 
     /// Returns the start of a search for one contact after one for several that has failed without
     /// it, or the error.
-    fn start_anew(&mut self, error: ContactError<T>) -> Result<Start, ContactError<T>> {
+    fn start_anew(&mut self, error: ContactError<T>) -> Fallible<T, Start> {
         let is_known = matches!(error, ContactError::Solve(SolveError::DomainTooShort { .. }));
         if !std::mem::take(&mut self.has_valleys) || is_known {
             return Err(error);
@@ -153,7 +153,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     }
 
     /// Returns the start of a search for any number of contacts.
-    fn start_of_several(&mut self) -> Result<Start, ContactError<T>> {
+    fn start_of_several(&mut self) -> Fallible<T, Start> {
         if !self.may_be_several() {
             return Err(self.error.take().or(self.of_one.take()).unwrap_or(self.no_balance()));
         }
@@ -276,7 +276,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     }
 
     /// Tells whether the gap has several valleys, and no other start is known.
-    fn has_valleys(&mut self) -> Result<bool, ContactError<T>> {
+    fn has_valleys(&mut self) -> Fallible<T, bool> {
         let given = self.contact.start.is_some() || !self.contact.edges.are_sought();
         let told = given || !self.work.workspace.last.is_empty();
         if self.is_convex() || told || !self.may_be_several() {
@@ -292,7 +292,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     }
 
     /// Surveys the bodies as closely as the load requires.
-    fn look(&mut self) -> Result<&Survey<T>, ContactError<T>> {
+    fn look(&mut self) -> Fallible<T, &Survey<T>> {
         let asked = asked_by(&self.conditions);
         self.work.workspace.look(&self.contact.gap, asked, self.work.cost)
     }

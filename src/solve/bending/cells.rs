@@ -10,7 +10,7 @@ use crate::gap::Sampler;
 use crate::kernel::{Given, Kept, at_least, pressed};
 use crate::solve::active_set::{Coarse, FIRST_CELLS, LENGTH, NotFound, Scene, active_set};
 use crate::solve::capacity::Capacity;
-use crate::{ContactError, Control, Edge, Real, Side};
+use crate::{ContactError, Control, Edge, Fallible, Real, Side};
 
 /// Factor by which cells may be wrong in a contact that is too wide.
 const DOUBT: f64 = 1.01;
@@ -25,7 +25,7 @@ type Load<T> = (T, Option<T>);
 
 impl<T: Real> Bending<'_, '_, '_, T> {
     /// Begins with the contacts of cells. Tells whether there are any: a load must be given.
-    pub(super) fn begin_with_cells(&mut self) -> Result<bool, ContactError<T>> {
+    pub(super) fn begin_with_cells(&mut self) -> Fallible<T, bool> {
         let Some((load, at)) = line_of_load(self.control) else { return Ok(false) };
         let Some(coarse) = self.coarse((load, at))? else { return Ok(false) };
         self.reaches = self.end_reached(&coarse);
@@ -61,7 +61,7 @@ impl<T: Real> Bending<'_, '_, '_, T> {
     }
 
     /// Returns the error for contacts that reach an end, with what the bodies bear in others.
-    pub(super) fn too_short(&mut self, side: Side) -> Result<ContactError<T>, ContactError<T>> {
+    pub(super) fn too_short(&mut self, side: Side) -> Fallible<T, ContactError<T>> {
         let Some((load, at)) = line_of_load(self.control) else { return Ok(self.stuck()) };
         let end = self.contact.ends_of(&self.gap)[side];
         let (mut borne, mut high) = (Capacity::nothing(end), load);
@@ -81,7 +81,7 @@ impl<T: Real> Bending<'_, '_, '_, T> {
     }
 
     /// Returns the contacts of cells.
-    fn coarse(&mut self, (load, at): Load<T>) -> Result<Option<Coarse<T>>, ContactError<T>> {
+    fn coarse(&mut self, (load, at): Load<T>) -> Fallible<T, Option<Coarse<T>>> {
         let (kernel, gap, kappa) = (&self.kernel, &self.gap, self.contact.kappa);
         let ends = self.contact.ends_of(gap);
         let range = [ends.left, ends.right];

@@ -6,7 +6,7 @@
 
 use super::{Bending, Spread, load};
 use crate::kernel::punch;
-use crate::{ContactError, Interval, Real, SolveError};
+use crate::{ContactError, Fallible, Interval, Real, SolveError};
 use std::cmp::Ordering;
 
 /// Least distance of the cut from the contacts, by the widest gap.
@@ -34,7 +34,7 @@ impl<T: Real> Bending<'_, '_, '_, T> {
 
     /// Cuts the period in the widest gap, where the bodies are furthest apart, unless the present
     /// cut is about as far from the contacts.
-    pub(super) fn cut(&mut self) -> Result<(), ContactError<T>> {
+    pub(super) fn cut(&mut self) -> Fallible<T, ()> {
         let Some(period) = self.kernel.row.as_ref().map(|row| row.period) else { return Ok(()) };
         let contacts = merged(&self.spreads);
         let (Some(first), Some(last)) = (contacts.first(), contacts.last()) else { return Ok(()) };
@@ -64,7 +64,7 @@ impl<T: Real> Bending<'_, '_, '_, T> {
     }
 
     /// Tells the kernel how far the next period is, after a check that some gap is wide enough.
-    pub(super) fn look_beside(&mut self, contacts: &[Interval<T>]) -> Result<(), ContactError<T>> {
+    pub(super) fn look_beside(&mut self, contacts: &[Interval<T>]) -> Fallible<T, ()> {
         let Some(period) = self.kernel.row.as_ref().map(|row| row.period) else { return Ok(()) };
         let (Some(first), Some(last)) = (contacts.first(), contacts.last()) else { return Ok(()) };
         let on = Interval { left: first.left, right: last.right };
@@ -86,7 +86,7 @@ impl<T: Real> Bending<'_, '_, '_, T> {
     }
 
     /// Returns the error for bodies that touch all over a period.
-    pub(super) fn complete(&mut self) -> Result<ContactError<T>, ContactError<T>> {
+    pub(super) fn complete(&mut self) -> Fallible<T, ContactError<T>> {
         let compliance = |omega: T| self.kernel.compliance(omega);
         let kappa = self.contact.kappa;
         let complete = self.gap.complete_load(kappa, compliance, self.work.cost)?;

@@ -12,7 +12,7 @@ use super::{ByLoad, Point, Quantity, Value};
 use crate::material::Elasticity;
 use crate::solution::{Approaching, ContactState};
 use crate::solve::Contact;
-use crate::{ContactError, Real, References, SolveError};
+use crate::{ContactError, Fallible, Real, References, SolveError};
 
 /// First load, as a share of `κ δ`: a third is right twenty half-widths above the references, and
 /// less further off. The samples of a contact serve a narrower one, but not a wider one.
@@ -25,7 +25,7 @@ pub(in super::super) struct ByApproach<T> {
 }
 
 impl<T: Real> Quantity<T> for ByApproach<T> {
-    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Result<T, ContactError<T>> {
+    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Fallible<T, T> {
         Ok(T::of(FIRST_LOAD) * search.contact.kappa * search.wanted)
     }
 

@@ -5,13 +5,13 @@ use crate::gap::Asked;
 use crate::solution::{ContactState, LoadRates};
 use crate::solve::Contact;
 use crate::solve::capacity::Capacity;
-use crate::{ContactError, Ends, Real};
+use crate::{ContactError, Ends, Fallible, Real};
 
 /// Half the distance from the first limit to the last.
 pub(in super::super) struct HalfWidth;
 
 impl<T: Real> Quantity<T> for HalfWidth {
-    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Result<T, ContactError<T>> {
+    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Fallible<T, T> {
         search.surveyed(Asked::HalfWidth(search.wanted), false)
     }
 

@@ -5,7 +5,9 @@ use crate::gap::Asked;
 use crate::solution::{ContactState, Solved};
 use crate::solve::capacity::Capacity;
 use crate::solve::{Contact, topology};
-use crate::{ContactError, Edge, Ends, EvaluationError, InputError, Interval, Real, SolveError};
+use crate::{
+    ContactError, Edge, Ends, EvaluationError, Fallible, InputError, Interval, Real, SolveError,
+};
 
 /// Largest pressure of all contacts.
 pub(in super::super) struct Peak;
@@ -13,7 +15,7 @@ pub(in super::super) struct Peak;
 impl Peak {
     /// Checks the edges: a corner on the bodies may end them; at any other edge that is not free
     /// the pressure is infinite.
-    pub fn new<T: Real>(contact: &Contact<'_, T>) -> Result<Self, ContactError<T>> {
+    pub fn new<T: Real>(contact: &Contact<'_, T>) -> Fallible<T, Self> {
         let edges = contact.checked_edges()?;
         if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = edges {
             return Err(InputError::BothLimitsGiven { interval: Interval { left, right } }.into());
@@ -26,7 +28,7 @@ impl Peak {
 }
 
 impl<T: Real> Quantity<T> for Peak {
-    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Result<T, ContactError<T>> {
+    fn first_load(&self, search: &mut ByLoad<'_, '_, '_, T>) -> Fallible<T, T> {
         search.surveyed(Asked::Peak(search.wanted / search.contact.kappa), true)
     }
 

@@ -12,7 +12,7 @@ use super::super::single_contact::MAX_DOUBT;
 use super::linearised::{Linearised, Step, doubtful, moved};
 use super::{Progress, Stop, crosses_breakpoint};
 use crate::quadrature::{Integrator, Moments};
-use crate::{ContactError, Ends, Gap, Interval, Real, Side};
+use crate::{Ends, Fallible, Gap, Interval, Real, Side};
 
 /// Trials before the search is given up: for an initial guess, and in full. An initial guess that
 /// takes long has no contact.
@@ -79,7 +79,7 @@ struct Trial<T: Real> {
 
 impl<T: Real> NewtonSingle<'_, '_, T> {
     /// Finds the limits from a start nearby.
-    pub fn converge(&mut self, start: Interval<T>) -> Result<Verdict<T>, ContactError<T>> {
+    pub fn converge(&mut self, start: Interval<T>) -> Fallible<T, Verdict<T>> {
         let (conditions, progress) = (self.conditions, Progress::new());
         let (on, load) = (conditions.with_given(start, self.gap.range()), conditions.load());
         let mut trial = Trial { start, on, load, last: None, progress, at_end: 0, long: 0 };
@@ -188,7 +188,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         system: &Linearised<T>,
         step: &Step<T>,
         m: &Moments<T>,
-    ) -> Result<Option<Verdict<T>>, ContactError<T>> {
+    ) -> Fallible<T, Option<Verdict<T>>> {
         let (on, load, size) = (trial.on, trial.load, step.size());
         let sizes = step.limits.map(|step| step.abs());
         if self.effort == Effort::Guess {
@@ -252,7 +252,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         &mut self,
         mut on: Interval<T>,
         mut load: T,
-    ) -> Result<(Interval<T>, T), ContactError<T>> {
+    ) -> Fallible<T, (Interval<T>, T)> {
         let conditions = self.conditions;
         for _ in 0..T::DERIVATIVE_ORDER {
             let m = self.integrator.moments(self.gap, on)?;

@@ -4,7 +4,7 @@ use super::width::ulps;
 use super::{NestedSearch, TrialContact, nearer};
 use crate::search::Bracket;
 use crate::solve::equations::Equations;
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{Ends, Fallible, Interval, Real};
 
 /// Outcome of the search for the place of a contact of given width.
 pub(super) enum Centred<T> {
@@ -22,7 +22,7 @@ type SteppedOut<T> = Result<[TrialContact<T>; 2], Centred<T>>;
 
 impl<T: Real> NestedSearch<'_, T> {
     /// Finds the place of a contact of given half-width.
-    pub fn centre(&mut self, half_width: T) -> Result<Centred<T>, ContactError<T>> {
+    pub fn centre(&mut self, half_width: T) -> Fallible<T, Centred<T>> {
         let width = T::of(2.0) * half_width;
         let ([first, last], room) = (self.range, self.room());
         let given = match self.equations.limits() {
@@ -67,7 +67,7 @@ impl<T: Real> NestedSearch<'_, T> {
 
     /// Steps from the place of the last contact until the balance is between two reaches of the
     /// near edge; otherwise returns the outcome of the last trial.
-    fn step_out(&mut self, width: T, [lo, hi]: [T; 2]) -> Result<SteppedOut<T>, ContactError<T>> {
+    fn step_out(&mut self, width: T, [lo, hi]: [T; 2]) -> Fallible<T, SteppedOut<T>> {
         let (zero, near, room) = (T::zero(), self.near, self.room());
         let mut reach = (self.share * width).max(lo).min(hi);
         let mut trial = self.attempt(self.reaching(width, reach))?;

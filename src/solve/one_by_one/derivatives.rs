@@ -8,7 +8,7 @@
 use crate::gap::{Cost, Gap};
 use crate::quadrature::Engine;
 use crate::solve::equations::Equations;
-use crate::{ContactError, Ends, Interval, Real, SolveError};
+use crate::{Ends, Fallible, Interval, Real, SolveError};
 
 /// Number of steps; each gains three to five digits.
 const DERIVATIVE_STEPS: usize = 6;
@@ -25,7 +25,7 @@ pub(super) fn differentiate<T: Real>(
     found: Interval<T>,
     half_width: Option<T>,
     cost: &mut Cost,
-) -> Result<Interval<T>, ContactError<T>> {
+) -> Fallible<T, Interval<T>> {
     if T::DERIVATIVE_ORDER == 0 {
         return Ok(found);
     }
@@ -48,7 +48,7 @@ pub(super) fn differentiate<T: Real>(
         right: on.right + one * ways[0][1] + other * ways[1][1],
     };
     let both = ways[1] != [zero; 2];
-    let mut missed = |on: Interval<T>| -> Result<[T; 2], ContactError<T>> {
+    let mut missed = |on: Interval<T>| -> Fallible<T, [T; 2]> {
         let residual = equations.residual(gap, on, integrator, cost)?;
         let (at_a, at_b) = (residual.at_a, residual.at_b);
         Ok(match (both, half_width) {

@@ -4,7 +4,7 @@ use super::centre::Centred;
 use super::{NestedSearch, TrialContact, nearer};
 use crate::search::Bracket;
 use crate::solve::equations::{Equations, Residual};
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, Fallible, Interval, Real};
 
 /// Widths tried before the search gives up bracketing the load: enough to halve the largest number
 /// down to the smallest.
@@ -15,7 +15,7 @@ const STEEPEST_LOAD: f64 = 40.0;
 
 impl<T: Real> NestedSearch<'_, T> {
     /// Finds the half-width at which the spread vanishes, starting from a guess.
-    pub fn widen(&mut self, guess: T) -> Result<TrialContact<T>, ContactError<T>> {
+    pub fn widen(&mut self, guess: T) -> Fallible<T, TrialContact<T>> {
         let [narrow, wide] = self.enclose(guess)?;
         if narrow.residual.spread() == T::zero() {
             return Ok(narrow);
@@ -32,7 +32,7 @@ impl<T: Real> NestedSearch<'_, T> {
     }
 
     /// Finds a contact too narrow for the load and one too wide, or the exact one twice.
-    fn enclose(&mut self, guess: T) -> Result<[TrialContact<T>; 2], ContactError<T>> {
+    fn enclose(&mut self, guess: T) -> Fallible<T, [TrialContact<T>; 2]> {
         let (zero, half) = (T::zero(), T::of(0.5));
         // Closer to a given limit than this, the other limit is the same number.
         let given = self.equations.limits() != Ends::both(None);
@@ -103,7 +103,7 @@ impl<T: Real> NestedSearch<'_, T> {
 
     /// Returns the balanced contact that just reaches one end of the bodies, wider than a given
     /// one.
-    fn pin(&mut self, end: usize, narrow: Interval<T>) -> Result<TrialContact<T>, ContactError<T>> {
+    fn pin(&mut self, end: usize, narrow: Interval<T>) -> Fallible<T, TrialContact<T>> {
         let (origin, range, room) = (self.origin, self.range, self.room());
         let on = |other: T| match end {
             0 => Interval { left: range[0], right: origin + other },

@@ -6,7 +6,7 @@ use super::beside::{Beside, Verdict};
 use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
 use crate::quadrature::panels::Rises;
 use crate::solve::exterior_field::ExteriorFields;
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{Ends, Fallible, Interval, Real, Side};
 
 /// Share of the load that the series of the pressures may leave uncertain before more pressures are
 /// taken; and the factor on this share if it hides whether the bodies overlap.
@@ -94,7 +94,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         look: &mut Survey<T>,
         ends: Ends<T>,
         cost: &mut Cost,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         self.compare_heights(look, cost)?;
         self.list_closed_before(closed_before);
         if !self.widest.is_empty() && closed_before.is_empty() {
@@ -158,7 +158,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// Compares the rise of the gap over one contact by its slopes and by the heights of the
     /// survey: the contact itself does not see a step between two panels. If they disagree, the
     /// curves themselves decide.
-    fn compare_heights(&self, look: &Survey<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
+    fn compare_heights(&self, look: &Survey<T>, cost: &mut Cost) -> Fallible<T, ()> {
         let Interval { left, right } = self.found.interval;
         let [from, to] = [left, right].map(|x| self.gap.nearest(x));
         let Some(by_slopes) = self.panels.rise(from, to) else { return Ok(()) };
@@ -216,7 +216,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         side: Side,
         ends: Ends<T>,
         cost: &mut Cost,
-    ) -> Result<Option<LowPoint<T>>, ContactError<T>> {
+    ) -> Fallible<T, Option<LowPoint<T>>> {
         let x = ends[side];
         let reached = [self.gap.range()[side as usize], self.found.interval[side]];
         if reached.contains(&x) {
@@ -238,7 +238,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         heights: impl Iterator<Item = LowPoint<T>>,
         [dips, open]: [&mut Vec<[T; 2]>; 2],
         cost: &mut Cost,
-    ) -> Result<bool, ContactError<T>> {
+    ) -> Fallible<T, bool> {
         let (contacts, hull) = (self.contacts, self.found.interval);
         let last = contacts.len() - 1;
         // The first flag: the gap is open somewhere after the last dip.
@@ -435,7 +435,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         from: &Beside<T>,
         x: T,
         cost: &mut Cost,
-    ) -> Result<(Option<[T; 2]>, bool), ContactError<T>> {
+    ) -> Fallible<T, (Option<[T; 2]>, bool)> {
         let mut sampler = Sampler::default();
         let height = sampler.height(self.gap, x)?;
         let at_edge = match self.panels.several() {

@@ -3,7 +3,7 @@
 use super::super::newton::Stop;
 use super::super::newton::single::{Converged, Effort};
 use super::{MAX_GUESSES, Single};
-use crate::{ContactError, Interval, Real};
+use crate::{Fallible, Interval, Real};
 
 /// Initial guesses that may reach for an end before the capacity of the bodies is computed.
 const MAX_GUESSES_AT_END: usize = 2;
@@ -23,7 +23,7 @@ struct Guess<T> {
 impl<T: Real> Single<'_, '_, T> {
     /// Returns a first estimate of the contact, and its uncertainty as a share of its half-width;
     /// `None` if guesses lead nowhere.
-    pub(super) fn initial_guess(&mut self) -> Result<Option<(Interval<T>, T)>, ContactError<T>> {
+    pub(super) fn initial_guess(&mut self) -> Fallible<T, Option<(Interval<T>, T)>> {
         let gap = &self.contact.gap;
         let [left, right] = gap.range();
         let (mut span, mut on, mut at_end) = (self.start(), None, 0);

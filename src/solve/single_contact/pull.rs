@@ -4,7 +4,7 @@ use super::super::capacity::capacity;
 use super::super::edges::Given;
 use super::{ROUGH_UNCERTAINTY, Single};
 use crate::solution::ContactState;
-use crate::{ContactError, Interval, Real, SolveError};
+use crate::{ContactError, Fallible, Interval, Real, SolveError};
 
 /// Largest number of steps of a pull: the first may be far longer than the last.
 const MAX_PULLS: usize = 200;
@@ -13,10 +13,7 @@ impl<T: Real> Single<'_, '_, T> {
     /// Pulls at an adhesive contact: from zero load, or from the widest contact on the bodies, in
     /// steps that each start from the contact before. The contact gives way where its width no
     /// longer falls steadily with the load, but all at once.
-    pub(super) fn pull(
-        &mut self,
-        last: Option<Interval<T>>,
-    ) -> Result<ContactState<T>, ContactError<T>> {
+    pub(super) fn pull(&mut self, last: Option<Interval<T>>) -> Fallible<T, ContactState<T>> {
         let load = self.conditions.load();
         if let Some(last) = last
             && let Some(found) = self.pulled(load, last)?
@@ -67,11 +64,7 @@ impl<T: Real> Single<'_, '_, T> {
     }
 
     /// Finds the contact under a load, from one nearby.
-    fn pulled(
-        &mut self,
-        load: T,
-        from: Interval<T>,
-    ) -> Result<Option<ContactState<T>>, ContactError<T>> {
+    fn pulled(&mut self, load: T, from: Interval<T>) -> Fallible<T, Option<ContactState<T>>> {
         self.conditions.given = Given::Load(load);
         let converged = self.in_full(from, T::of(ROUGH_UNCERTAINTY))?;
         converged.map(|converged| self.contact_of(converged)).transpose()

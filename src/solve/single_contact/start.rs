@@ -4,7 +4,7 @@ use super::super::edges::{Conditions, Given};
 use super::super::first_contact::first_contact;
 use super::{Elsewhere, MAX_GUESSES, Single};
 use crate::gap::Sampler;
-use crate::{ContactError, Ends, Interval, Real, SolveError};
+use crate::{Ends, Fallible, Interval, Real, SolveError};
 
 impl<T: Real> Single<'_, '_, T> {
     /// Returns another start: low places of the gap, if heights are known, or the place of first
@@ -14,10 +14,7 @@ impl<T: Real> Single<'_, '_, T> {
     /// whose neighbourhood says nothing of the other end. But at the limits of a contact, the gap
     /// of round bodies is F/κ, and of wedges, which rise most, up to twice as much: up to this
     /// height the flat takes part.
-    pub(super) fn elsewhere(
-        &mut self,
-        from: Elsewhere,
-    ) -> Result<Option<Interval<T>>, ContactError<T>> {
+    pub(super) fn elsewhere(&mut self, from: Elsewhere) -> Fallible<T, Option<Interval<T>>> {
         if from == Elsewhere::Low {
             let Some(look) = self.look else { return Ok(None) };
             let gap = &self.contact.gap;
@@ -43,7 +40,7 @@ impl<T: Real> Single<'_, '_, T> {
         &self,
         sampler: &mut Sampler<T>,
         leans: bool,
-    ) -> Result<Interval<T>, ContactError<T>> {
+    ) -> Fallible<T, Interval<T>> {
         let (gap, conditions, quarter) = (&self.contact.gap, &self.conditions, T::of(0.25));
         let x = first_contact(sampler, gap, self.start)?;
         let [left, right] = gap.range();

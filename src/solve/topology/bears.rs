@@ -13,7 +13,7 @@ use super::super::edges::{Conditions, Given};
 use super::{Contact, Search, Work, settle};
 use crate::quadrature::LoadCase;
 use crate::solution::{ContactState, Solved, largest_pressure};
-use crate::{ContactError, Ends, Interval, Real, Side, SolveError};
+use crate::{ContactError, Ends, Fallible, Interval, Real, Side, SolveError};
 
 /// Ratio of the loads that enclose the one under which cells reach an end of the bodies.
 const BRACKET_RATIO: f64 = 1.25;
@@ -68,10 +68,7 @@ pub(in super::super) fn up_to_corner<T: Real>(
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Returns the contacts after all, or an error that says what the bodies bear, if the search
     /// has led to an end of them.
-    pub(super) fn explain(
-        &mut self,
-        error: ContactError<T>,
-    ) -> Result<ContactState<T>, ContactError<T>> {
+    pub(super) fn explain(&mut self, error: ContactError<T>) -> Fallible<T, ContactState<T>> {
         // Of a single interval, no cells show that bodies that turn are too short.
         let is_blind = self.contact.single_interval && self.turns();
         let may_run_out = self.runs_out.is_some() || is_blind && is_nowhere(&error);

@@ -5,13 +5,13 @@ use super::{Fault, Search, Work, Workspace, asked_by};
 use crate::gap::Gap;
 use crate::quadrature::Integrator;
 use crate::solution::{ContactState, Outcome};
-use crate::{ContactError, Ends, Interval, Real, SolveError};
+use crate::{ContactError, Ends, Fallible, Interval, Real, SolveError};
 use std::borrow::Cow;
 
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Looks for narrow features in the contacts found; tells whether the panels missed one. Fails
     /// if a search for one contact leads back to where they did.
-    pub(super) fn misses(&mut self, found: &ContactState<T>) -> Result<bool, ContactError<T>> {
+    pub(super) fn misses(&mut self, found: &ContactState<T>) -> Fallible<T, bool> {
         let contact = self.contact;
         if contact.single_interval || contact.gap.is_convex() {
             return Ok(false);
@@ -54,10 +54,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Returns the fault of a solution, if it has any.
-    fn checked(
-        &mut self,
-        found: &ContactState<T>,
-    ) -> Result<Option<ContactError<T>>, ContactError<T>> {
+    fn checked(&mut self, found: &ContactState<T>) -> Fallible<T, Option<ContactError<T>>> {
         // More contacts may press at a corner not reached yet.
         let (edges, lifts_off) = (self.contact.edges, found.lifts_off(self.contact.edges));
         let is_said = self.contact.gap.is_convex();
@@ -78,7 +75,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         gap: &Gap<'_, T>,
         found: &ContactState<T>,
-    ) -> Result<Option<ContactError<T>>, ContactError<T>> {
+    ) -> Fallible<T, Option<ContactError<T>>> {
         let (kappa, covers) = (self.contact.kappa, self.covers(found));
         let (interval, load) = (found.interval, found.load);
         // If the integrator has no panels, some are made for the check of the contact.
@@ -122,7 +119,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Looks for narrow features next to the contacts found.
-    fn resolve(&mut self, found: &ContactState<T>) -> Result<(), ContactError<T>> {
+    fn resolve(&mut self, found: &ContactState<T>) -> Fallible<T, ()> {
         let gap = &self.contact.gap.tilted(found.tilt);
         self.work.workspace.take(gap, self.work.cost)?;
         if self.contact.is_trial {
@@ -135,7 +132,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Tells whether the panels have found a feature that a convex survey has missed, and shows it
     /// to the survey.
-    pub(super) fn corrects_survey(&mut self) -> Result<bool, ContactError<T>> {
+    pub(super) fn corrects_survey(&mut self) -> Fallible<T, bool> {
         let falls = self.work.integrator.panels().is_some_and(|panels| panels.falls());
         if falls {
             self.show_panels()?;
@@ -144,7 +141,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Shows the survey what the panels of the contacts see, over their whole span.
-    pub(super) fn show_panels(&mut self) -> Result<(), ContactError<T>> {
+    pub(super) fn show_panels(&mut self) -> Fallible<T, ()> {
         let gap = &self.contact.gap;
         let Work { integrator, workspace, cost } = &mut *self.work;
         let load = workspace.about(gap, asked_by(&self.conditions), cost)?;
@@ -160,11 +157,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Tells whether the gap is convex around one contact as far as its load reaches.
-    fn touches_once(
-        &mut self,
-        gap: &Gap<'_, T>,
-        found: &ContactState<T>,
-    ) -> Result<bool, ContactError<T>> {
+    fn touches_once(&mut self, gap: &Gap<'_, T>, found: &ContactState<T>) -> Fallible<T, bool> {
         let is_one = self.work.integrator.several().is_none();
         if !is_one || found.adhesive != Ends::both(false) || self.covers(found) {
             return Ok(false);

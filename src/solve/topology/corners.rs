@@ -25,7 +25,7 @@ use super::{Given, Search, Workspace};
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::solution::ContactState;
-use crate::{ContactError, Edge, Ends, Interval, Real, Side};
+use crate::{Edge, Ends, Fallible, Interval, Real, Side};
 
 /// Largest distance of a limit from a corner that may hold it, as a share of the half-width: that
 /// of limits by cells.
@@ -90,7 +90,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Holds the limits at hand that are at an end of the bodies, or next to a corner inside them.
     /// A contact whose place is not known is held at both ends. Tells whether limits may be held at
     /// all.
-    pub(super) fn hold(&mut self) -> Result<bool, ContactError<T>> {
+    pub(super) fn hold(&mut self) -> Fallible<T, bool> {
         let (ends, conditions, is_of_one) =
             (self.contact.ends(), self.conditions, self.is_of_one());
         let at_corner = self.edges().map(|edge| matches!(edge, Edge::FreeUntil(_)));
@@ -167,12 +167,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Returns the corner inside the bodies next to a limit of a contact, if there is one. `mean`
     /// is `F/(κ L)`.
-    fn corner_next_to(
-        &mut self,
-        on: Interval<T>,
-        side: Side,
-        mean: T,
-    ) -> Result<Option<T>, ContactError<T>> {
+    fn corner_next_to(&mut self, on: Interval<T>, side: Side, mean: T) -> Fallible<T, Option<T>> {
         let (range, near) = (self.contact.gap.range(), T::of(NEAR_CORNER) * on.half_width());
         let (x, outward) = (on[side], outward::<T>(side));
         let around = Interval { left: (x - near).max(range[0]), right: (x + near).min(range[1]) };
@@ -206,7 +201,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Tells whether a limit may end at a corner inside the bodies.
-    pub(super) fn has_corners(&mut self) -> Result<bool, ContactError<T>> {
+    pub(super) fn has_corners(&mut self) -> Fallible<T, bool> {
         let Ends { left, right } = self.contact.ends();
         let mean = self.conditions.load() / self.contact.kappa / (right - left);
         let (on, reach) = (Interval { left, right }, T::of(0.5 * SHORT_WALL) * (right - left));
@@ -223,7 +218,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Returns a breakpoint, or a limit, with the slope on its inner side.
-    fn corner(&mut self, z: T, side: Side) -> Result<Corner<T>, ContactError<T>> {
+    fn corner(&mut self, z: T, side: Side) -> Fallible<T, Corner<T>> {
         let mut sampler = Sampler::default();
         let slope = sampler.slope_from(&self.contact.gap, z, side.other())?;
         self.work.cost.heights += sampler.cost.evaluations;
@@ -232,12 +227,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Returns the steepest slope, outward, up to a distance beyond a breakpoint, above the slope
     /// inside: at the ends of the pieces there, given the breakpoints that follow.
-    fn steepest_beyond(
-        &mut self,
-        corner: &Corner<T>,
-        next: &[T],
-        reach: T,
-    ) -> Result<T, ContactError<T>> {
+    fn steepest_beyond(&mut self, corner: &Corner<T>, next: &[T], reach: T) -> Fallible<T, T> {
         let z = corner.z;
         let ends = next.iter().map(|&x| (x - z).abs()).take_while(|&away| away < reach);
         let away: Vec<T> = ends.chain([reach]).collect();
@@ -250,7 +240,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         &Corner { z, side, slope }: &Corner<T>,
         away: &[T],
-    ) -> Result<Vec<T>, ContactError<T>> {
+    ) -> Fallible<T, Vec<T>> {
         let (gap, mut sampler) = (&self.contact.gap, Sampler::default());
         let [from, to] = gap.range();
         let outward: T = outward(side);
@@ -270,7 +260,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         found: &mut ContactState<T>,
         passed: Ends<usize>,
-    ) -> Result<bool, ContactError<T>> {
+    ) -> Fallible<T, bool> {
         let held = self.strengths(found);
         if held.is_empty() {
             return Ok(false);
@@ -366,13 +356,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Returns the distance d beyond a corner at which the contact ends, given the strength with
     /// the limit held there; `None` if the wall beyond is too low.
-    fn beyond(
-        &mut self,
-        z: T,
-        side: Side,
-        strength: T,
-        half_width: T,
-    ) -> Result<Option<T>, ContactError<T>> {
+    fn beyond(&mut self, z: T, side: Side, strength: T, half_width: T) -> Fallible<T, Option<T>> {
         let rule = GaussLegendre::coarsest();
         let half = T::of(0.5);
         let due = T::pi() * T::pi() * strength * (half * half_width).sqrt() / self.contact.kappa;
@@ -385,7 +369,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let next = self.breakpoints(Interval { left: z.min(at), right: z.max(at) }, side);
         let steepest = self.steepest_beyond(&corner, &next, half * half_width)?;
         let most = (half * half_width).sqrt();
-        let mut share_at = |root: T| -> Result<T, ContactError<T>> {
+        let mut share_at = |root: T| -> Fallible<T, T> {
             let away: Vec<T> =
                 nodes.iter().map(|&[u, _]| root * root * (T::one() - u * u)).collect();
             let rises = self.rise_beyond(&corner, &away)?;

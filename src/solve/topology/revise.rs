@@ -18,7 +18,7 @@ use super::super::fault::Fault;
 use super::super::newton::several::put;
 use super::{Conditions, Contact, FIRST_CELLS, Search, Work, Workspace, asked_by};
 use crate::solution::{Outcome, Start};
-use crate::{ContactError, Edge, Ends, Interval, Real, Side, SolveError};
+use crate::{ContactError, Edge, Ends, Fallible, Interval, Real, Side, SolveError};
 
 /// Largest uncertainty of heights, as a share of F/κ, to show by themselves where the bodies
 /// touch: with 400 contacts a twelfth of the load of one.
@@ -31,7 +31,7 @@ const MAX_DOUBLINGS: usize = 6;
 const SEED_WIDTH: f64 = 1e-4;
 
 /// Next start, or the error of the search.
-type Next<T> = Result<Start, ContactError<T>>;
+type Next<T> = Fallible<T, Start>;
 
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Makes the next set of contacts at the fault of the last one; returns its start, or the error
@@ -155,7 +155,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Tells whether a search for several contacts would fail with the error of this search for
     /// one.
-    fn is_of_any_number(&mut self, error: &ContactError<T>) -> Result<bool, ContactError<T>> {
+    fn is_of_any_number(&mut self, error: &ContactError<T>) -> Fallible<T, bool> {
         // If the bodies turn, more contacts may press at the corner.
         if let ContactError::Solve(SolveError::LiftsOff { .. }) = error {
             return Ok(self.is_convex() || !self.turns());
@@ -233,7 +233,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Takes the contacts from a coarse active set, with more cells after each failure.
-    pub(super) fn take_cells(&mut self) -> Result<(), ContactError<T>> {
+    pub(super) fn take_cells(&mut self) -> Fallible<T, ()> {
         self.show_panels()?;
         // This number of cells has not failed yet.
         let (cells, conditions) = (self.cells, self.conditions);
@@ -250,7 +250,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         &mut self,
         conditions: &Conditions<T>,
         cells: usize,
-    ) -> Result<Coarse<T>, ContactError<T>> {
+    ) -> Fallible<T, Coarse<T>> {
         let (gap, ends) = (&self.contact.gap, self.contact.ends());
         let Work { workspace, cost, .. } = &mut *self.work;
         workspace.take(gap, cost)?;

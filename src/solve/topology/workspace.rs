@@ -6,7 +6,7 @@ use super::super::signorini_check::{Overlaps, Passed, TensionSpans};
 use crate::gap::{Asked, Cost, Gap, GapId, Survey};
 use crate::kernel::Spread;
 use crate::solution::Report;
-use crate::{ContactError, Interval, Real};
+use crate::{Fallible, Interval, Real};
 
 /// Largest uncertainty of heights where the bodies may touch, as a share of F/κ, for a start.
 const MAX_START_UNCERTAINTY: f64 = 0.25;
@@ -76,12 +76,7 @@ impl<T: Real> Workspace<T> {
     }
 
     /// Returns an estimate of the load for this request, as F/κ.
-    pub fn about(
-        &mut self,
-        gap: &Gap<'_, T>,
-        asked: Asked<T>,
-        cost: &mut Cost,
-    ) -> Result<T, ContactError<T>> {
+    pub fn about(&mut self, gap: &Gap<'_, T>, asked: Asked<T>, cost: &mut Cost) -> Fallible<T, T> {
         self.take(gap, cost)?;
         Ok(self.look.load_of(gap, asked))
     }
@@ -102,18 +97,14 @@ impl<T: Real> Workspace<T> {
         gap: &Gap<'_, T>,
         asked: Asked<T>,
         cost: &mut Cost,
-    ) -> Result<&Survey<T>, ContactError<T>> {
+    ) -> Fallible<T, &Survey<T>> {
         self.take(gap, cost)?;
         self.look.refine(gap, asked, T::of(MAX_START_UNCERTAINTY), cost)?;
         Ok(&self.look)
     }
 
     /// Takes a first look at the bodies, once for each pair.
-    pub(super) fn take(
-        &mut self,
-        gap: &Gap<'_, T>,
-        cost: &mut Cost,
-    ) -> Result<(), ContactError<T>> {
+    pub(super) fn take(&mut self, gap: &Gap<'_, T>, cost: &mut Cost) -> Fallible<T, ()> {
         if self.of != Some(gap.id()) {
             self.of = None;
             self.passed.clear();
