@@ -91,5 +91,7 @@ def test_the_command_says_so(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert np.isnan(fields["pressure"][0]).all() and np.isfinite(fields["pressure"][1:]).all()
     # The same fields if nothing is pressed at all.
     assert {name: of.shape[1:] for name, of in alone.items()} == {name: of.shape[1:] for name, of in fields.items()}
-    assert np.isnan(alone["max_shear"]).all() and alone["load"].tolist() == [0.0, 0.0]
+    assert np.isnan(alone["field_max_shear"]).all() and alone["max_shear"].tolist() == alone["load"].tolist() == [0.0, 0.0]
+    # First touch is at zero to rounding, and written so.
+    assert alone["left"].tolist() == alone["right"].tolist() == [0.0, 0.0]
     assert sorted(path.name for path in tmp_path.glob("*.vtk")) == ["of_0002.vtk", "of_0003.vtk"]

@@ -136,7 +136,7 @@ def test_mistakes() -> None:
         CYLINDER.under_load(1000.0, math.nan)
     with pytest.raises(lc.errors.SliceOutsideTableError, match="pressed most"):
         CYLINDER.under_load(1000.0, 1.0)
-    with pytest.raises(lc.errors.ReliefError, match="middle z of a slice is -9.7561: it must be where the relief is known"):
+    with pytest.raises(lc.errors.ReliefError, match="the z of a slice is -9.7561: it must be where the relief is known"):
         lc.FiniteRoller(TABLE, 20.0, 41, RELIEF)
     with pytest.raises(ZeroDivisionError):
         lc.FiniteRoller(TABLE, LENGTH, 41, lc.Curve((-5.0, 5.0), lambda z: (z, 1 / 0, 1.0, z)))

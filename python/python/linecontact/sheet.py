@@ -11,6 +11,7 @@ import numpy as np
 
 from .below import Below, materials
 from .contact import Layer
+from .drawing import common_range
 from .errors import HalfPlanesOnlyError, LineContactError, SingularError
 from .solution import Solution, StressPeak
 
@@ -131,8 +132,10 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
     if yield_stress is not None:
         for of in ("von_mises", "tresca"):
             numbers[f"safety_{of}"] = yield_stress / numbers[of] if numbers[of] != 0.0 else math.inf
-    for name in ("centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
-        numbers[name] = 0.0 if abs(numbers[name]) < _ROUNDING * solution.half_width else numbers[name]
+    # Of bodies that are apart, places are known to the rounding of their x.
+    least = _EXACT * float(np.ptp(common_range(scene.contact))) if solution.is_apart else _ROUNDING * solution.half_width
+    for name in ("left", "right", "centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
+        numbers[name] = 0.0 if abs(numbers[name]) < least else numbers[name]
     named = {name: words for name, words in places.items() if words}
     return Row(control, solution, numbers, named, tuple(missing), None)
 
