@@ -47,6 +47,10 @@ const LEAST_STEP: f64 = 1.001;
 /// waves is 2 % of the period.
 const LARGEST_SHARE: f64 = 0.999;
 
+/// Least jump of a quantity, as a share of it in roots of the rounding unit. (Next to corners the
+/// rounding of x changes the approach by up to eight of them.)
+const LEAST_JUMP: f64 = 64.0;
+
 /// Largest factor between a load and the first one while the load is not enclosed.
 const MAX_FACTOR: f64 = 1e12;
 
@@ -170,7 +174,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
             if !load.is_finite() || (load * T::epsilon()).is_zero() {
                 return Err(SolveError::Overflow { interval: self.whole() }.into());
             }
-            let at = match self.at(load) {
+            let (found, at) = match self.at(load) {
                 Ok((found, at)) => {
                     let step = (self.wanted - at.value) / at.rate.component(0);
                     let size = step.abs() / load;
@@ -191,7 +195,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                         continue;
                     }
                     self.fault = self.fault.take().filter(|_| at.value < self.wanted);
-                    at
+                    (Some(found), at)
                 }
                 Err(error) => match self.bound(&error, load)? {
                     ControlFlow::Break(widest) => return Ok(widest),
@@ -199,7 +203,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                         // The capacity of the bodies is a better estimate than the first guess.
                         first = if at.load < load { at.load } else { first };
                         self.fault = Some(error);
-                        at
+                        (None, at)
                     }
                 },
             };
@@ -210,12 +214,22 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                 _ => load > first * T::of(MAX_FACTOR) || load < first / T::of(MAX_FACTOR),
             };
             if is_closed {
-                return Err(self.none());
+                return found.ok_or_else(|| self.none()).and_then(|found| self.across(found));
             }
         }
         let residual = self.high.map_or(self.wanted, |high| high.value - self.wanted);
         let source = SearchError::NotConverged { x: load, residual };
         Err(SolveError::LimitSearch { best: self.hull(), source }.into())
+    }
+
+    /// Returns a contact found between loads that have closed in, if the quantity does not jump
+    /// there.
+    fn across(&mut self, found: ContactState<T>) -> Fallible<T, ContactState<T>> {
+        let ends = self.low.zip(self.high);
+        let jump = ends.map(|(low, high)| (high.value - low.value) / self.wanted);
+        let least = T::of(LEAST_JUMP) * T::epsilon().sqrt();
+        let jump = jump.filter(|&jump| jump <= least).ok_or_else(|| self.none())?;
+        Ok(ContactState { error: found.error.map(|error| error + jump), ..found })
     }
 
     /// Returns this load, or one between the known ones if it is known to be too small or too

@@ -45,6 +45,11 @@ const STEP_INWARD: f64 = 0.01;
 /// the other limit may have been free, too.
 const MAX_PASSES: usize = 2;
 
+/// Largest distance beyond a corner at which a limit found free is held there, as a share of the
+/// distance at which its rounding changes the pressure as much as holding it does: a free limit is
+/// exact.
+const UNTOLD: f64 = 1.0 / 16.0;
+
 /// Least ratio of distances d that are let go together.
 const TOGETHER: f64 = 0.01;
 
@@ -88,9 +93,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Holds the limits at hand that are at an end of the bodies, or next to a corner inside them.
-    /// A contact whose place is not known is held at both ends. Tells whether limits may be held at
-    /// all.
-    pub(super) fn hold(&mut self) -> Fallible<T, bool> {
+    /// A contact whose place is not known is held at both ends.
+    pub(super) fn hold(&mut self) -> Fallible<T, ()> {
         let (ends, conditions, is_of_one) =
             (self.contact.ends(), self.conditions, self.is_of_one());
         let at_corner = self.edges().map(|edge| matches!(edge, Edge::FreeUntil(_)));
@@ -99,7 +103,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             &mut *self.work.workspace;
         held.clear();
         if is_of_one && at_corner == Ends::both(false) {
-            return Ok(false);
+            return Ok(());
         }
         before.clone_from(on);
         held.resize(on.len().max(1), Ends::both(false));
@@ -121,7 +125,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             }
         }
         if is_of_one {
-            return Ok(true);
+            return Ok(());
         }
         let sum = |sum: T, on: &Interval<T>| sum + on.half_width();
         let mean = conditions.load() / conditions.kappa / on.iter().fold(T::zero(), sum);
@@ -137,7 +141,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 }
             }
         }
-        Ok(true)
+        Ok(())
     }
 
     /// Holds a limit at a corner.
@@ -147,17 +151,37 @@ impl<T: Real> Search<'_, '_, '_, T> {
         held[contact][side] = true;
     }
 
-    /// Holds the limits of the only contact that have passed a corner at an end of the bodies;
-    /// tells whether there are any, and counts them in `passed`.
+    /// Holds the limits of the only contact that have passed a corner at an end of the bodies, or
+    /// one inside by less than x is known; tells whether there are any, and counts them in
+    /// `passed`.
     pub(super) fn passes(&mut self, found: &ContactState<T>, passed: &mut Ends<usize>) -> bool {
         let (edges, on, mut any) = (self.edges(), found.interval, false);
         if self.work.workspace.newton.on.len() > 1 {
             return false;
         }
+        let gap = &self.contact.gap;
+        let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
         for side in Side::BOTH {
-            let Edge::FreeUntil(z) = edges[side] else { continue };
-            let rounding = T::of(8.0) * T::epsilon() * (z.abs() + on.half_width());
-            if outward::<T>(side) * (on[side] - z) > rounding {
+            let beyond = |z: T| outward::<T>(side) * (on[side] - z);
+            let least = |z: T| T::epsilon() * (z.abs() + on.half_width());
+            let z = match edges[side] {
+                Edge::FreeUntil(z) if beyond(z) > T::of(8.0) * least(z) => Some(z),
+                Edge::FreeUntil(_) | Edge::Free if passed[side] == 0 && (by_load || !any) => {
+                    let corner = match side {
+                        Side::Left => gap.breakpoint_after(on.left),
+                        Side::Right => gap.breakpoint_before(on.right),
+                    };
+                    let untold = |z: T| (T::epsilon() * z.abs() * on.half_width()).sqrt();
+                    corner.filter(|&z| beyond(z) < T::of(UNTOLD) * untold(z))
+                }
+                _ => None,
+            };
+            if let Some(z) = z {
+                let Workspace { newton, before, .. } = &mut *self.work.workspace;
+                if !any {
+                    before.clone_from(&newton.on);
+                    newton.held.resize(1, Ends::both(false));
+                }
                 self.hold_at(0, side, z);
                 (passed[side], any) = (passed[side] + 1, true);
             }
@@ -261,10 +285,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
         found: &mut ContactState<T>,
         passed: Ends<usize>,
     ) -> Fallible<T, bool> {
-        let held = self.strengths(found);
-        if held.is_empty() {
+        if !self.work.workspace.newton.held.iter().any(|held| *held != Ends::both(false)) {
             return Ok(false);
         }
+        let held = self.strengths(found);
         let lower =
             |one: Held<T>, other: Held<T>| if other.strength < one.strength { other } else { one };
         let held = held.into_iter().filter(|held| passed[held.side] < MAX_PASSES);
@@ -284,7 +308,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             let half_width = self.work.workspace.newton.on[contact].half_width();
             // A wall that does not make up for the pressure is no corner.
             let as_before = outward::<T>(side) * (self.work.workspace.before[contact][side] - z);
-            let d = self.beyond(z, side, strength, half_width)?.unwrap_or(as_before);
+            let d = self.beyond(contact, side, strength)?.unwrap_or(as_before);
             // The rounding of x changes the pressure by a share ε x/(2 d).
             let rounding = T::epsilon() * z.abs().max(half_width);
             if d.abs() > (rounding * half_width).sqrt() {
@@ -354,21 +378,28 @@ impl<T: Real> Search<'_, '_, '_, T> {
             .collect()
     }
 
-    /// Returns the distance d beyond a corner at which the contact ends, given the strength with
-    /// the limit held there; `None` if the wall beyond is too low.
-    fn beyond(&mut self, z: T, side: Side, strength: T, half_width: T) -> Fallible<T, Option<T>> {
+    /// Returns the distance d beyond a corner at which a contact ends, given the strength with the
+    /// limit held there: up to half a half-width, or to the middle of the gap to the next contact.
+    /// `None` if the wall beyond is too low.
+    fn beyond(&mut self, contact: usize, side: Side, strength: T) -> Fallible<T, Option<T>> {
         let rule = GaussLegendre::coarsest();
-        let half = T::of(0.5);
+        let (half, on) = (T::of(0.5), &self.work.workspace.newton.on);
+        let (z, half_width) = (on[contact][side], on[contact].half_width());
+        let next = match side {
+            Side::Left => contact.checked_sub(1).map(|next| z - on[next].right),
+            Side::Right => on.get(contact + 1).map(|next| next.left - z),
+        };
+        let reach = half * next.map_or(half_width, |gap| gap.min(half_width));
         let due = T::pi() * T::pi() * strength * (half * half_width).sqrt() / self.contact.kappa;
         // In u = √(1 - t/d) the integral is 2 √d ∫ s du.
         let nodes: Vec<[T; 2]> = (0..rule.n)
             .map(|i| [T::of(0.5 * (1.0 + rule.nodes[i])), T::of(rule.weights[i])])
             .collect();
         let corner = self.corner(z, side)?;
-        let at = z + outward::<T>(side) * half * half_width;
+        let at = z + outward::<T>(side) * reach;
         let next = self.breakpoints(Interval { left: z.min(at), right: z.max(at) }, side);
-        let steepest = self.steepest_beyond(&corner, &next, half * half_width)?;
-        let most = (half * half_width).sqrt();
+        let steepest = self.steepest_beyond(&corner, &next, reach)?;
+        let most = reach.sqrt();
         let mut share_at = |root: T| -> Fallible<T, T> {
             let away: Vec<T> =
                 nodes.iter().map(|&[u, _]| root * root * (T::one() - u * u)).collect();

@@ -239,8 +239,10 @@ fn contacts_end_at_corners_inside_the_bodies() {
     // A limit at a hollow corner before another corner; an overlap within the error of a held
     // limit; corners that move their limits by shares that differ by many decades; a series of the
     // pressure that hides a corner; minima of the gap by rounding, for which thousands of cells
-    // were cut next to a corner.
-    solve_all(scenes(100).chain([173, 195, 612, 853, 957, 1425]), Scene::new);
+    // were cut next to a corner; a limit closer beyond a corner than x is known; a wall that levels
+    // off before the next contact; a slope beyond the corner that was taken for the one inside.
+    let known = [173, 195, 612, 853, 957, 1272, 1328, 1412, 1425];
+    solve_all(scenes(100).chain(known), Scene::new);
 }
 
 #[test]
@@ -268,27 +270,37 @@ fn solve_all(seeds: impl Iterator<Item = u64>, new: fn(&mut Dice) -> Scene) {
 /// Turned, the bodies touch as bodies of these heights do, and the load acts where it shall.
 #[test]
 fn under_a_moment_too() {
-    for seed in scenes(30) {
+    let mut faults = Vec::new();
+    for seed in scenes(30).chain([776]) {
         let scene = Scene::new(&mut Dice::new(seed));
         let body = scene.body();
         let at = if scene.radius.is_some() { 0.05 } else { 0.3 } * (seed as f64).sin();
         let control = Control::CentreOfPressure { load: scene.load, at };
-        let solution = scene.contact(&body).solve(control).unwrap_or_else(|error| {
-            panic!("{seed} {scene:?}: {error}");
-        });
+        let solution = match scene.contact(&body).solve(control) {
+            Ok(solution) => solution,
+            Err(error) => {
+                faults.push(format!("{seed} {scene:?}: {error}"));
+                continue;
+            }
+        };
         let centre = solution.centre_of_pressure().unwrap();
-        assert!((centre - at).abs() < 1e-6, "{seed}: {centre} for {at}");
+        if (centre - at).abs() >= 1e-6 {
+            faults.push(format!("{seed}: {centre} for {at}, {solution}"));
+        }
         let height = |x: f64| scene.height(x);
         let bodies = Bodies { tail: TAIL, height: &height, kappa: 1.0, places: scene.places() };
-        let faults = judge_closer(&bodies, &solution, scene.load, ALLOWED);
-        assert!(!faults.is_wrong(ALLOWED), "{seed} {scene:?}: {faults:?}");
+        let judged = judge_closer(&bodies, &solution, scene.load, ALLOWED);
+        if judged.is_wrong(ALLOWED) {
+            faults.push(format!("{seed} {scene:?}: {judged:?}"));
+        }
     }
+    assert!(faults.is_empty(), "{}: {}", faults.len(), faults.join("\n"));
 }
 
 /// Boundary elements have the same contacts, and the same load in each.
 #[test]
 fn boundary_elements_agree() {
-    let mut judged = 0;
+    let (mut judged, mut faults) = (0, Vec::new());
     for seed in scenes(25) {
         for new in [Scene::new, Scene::with_dimples] {
             let scene = Scene { may_part: true, ..new(&mut Dice::new(seed)) };
@@ -301,36 +313,42 @@ fn boundary_elements_agree() {
                 continue;
             };
             let body = scene.body();
-            let solution = scene.contact(&body).solve(Control::Load(scene.load)).unwrap();
+            let solution = match scene.contact(&body).solve(Control::Load(scene.load)) {
+                Ok(solution) => solution,
+                Err(error) => {
+                    faults.push(format!("{seed} {scene:?}: {error}"));
+                    continue;
+                }
+            };
             let found = solution.contacts().unwrap();
-            assert_eq!(found.len(), oracle.contacts.len(), "{seed} {scene:?}: {solution}");
+            if found.len() != oracle.contacts.len() {
+                faults.push(format!("{seed} {scene:?}: {solution}, {:?}", oracle.contacts));
+                continue;
+            }
             for ((one, on), error) in found.iter().zip(&oracle.contacts).zip(&oracle.errors) {
                 // The cells next to infinite pressures leave an error that moves narrow contacts.
                 let width = |on: Interval<f64>| on.right - on.left;
                 let least = 0.01 * width(one.interval).max(0.01 * width(solution.hull()));
                 let off = [one.interval.left - on.left, one.interval.right - on.right];
-                for (off, error) in off.into_iter().zip(error) {
-                    assert!(
-                        off.abs() <= least.max(3.0 * error),
-                        "{seed} {scene:?}: {solution}, {on:?}"
-                    );
+                let is_off = |(off, error): (f64, &f64)| off.abs() > least.max(3.0 * error);
+                let share = (oracle.load_in(*on) - one.load).abs() / scene.load;
+                if off.into_iter().zip(error).any(is_off) || share >= 0.01 {
+                    faults.push(format!("{seed} {scene:?}: {on:?} {share:e} {solution}"));
                 }
-                let off = (oracle.load_in(*on) - one.load).abs() / scene.load;
-                assert!(off < 0.01, "{seed} {scene:?}: {on:?} {off:e} {solution}");
             }
             judged += 1;
         }
     }
     println!("{judged} judged");
-    assert!(judged > 0);
+    assert!(judged > 0 && faults.is_empty(), "{}: {}", faults.len(), faults.join("\n"));
 }
 
-/// The approach under a load leads to this load again. (A single contact may be found free where
-/// the rounding of x says more than its distance from the corner: then the load is off by 1e-6.)
+/// The approach under a load leads to this load again. (In the seeds at the end, a single contact
+/// that is free closer to a corner than x is known, and approaches that jump by their rounding.)
 #[test]
 fn by_approach_too() {
     let (steel, mut faults) = (Material::elastic(1.0, 0.3), Vec::new());
-    for seed in scenes(60) {
+    for seed in scenes(60).chain([628, 639, 1334, 1990]) {
         for new in [Scene::new, Scene::with_dimples] {
             let scene = new(&mut Dice::new(seed));
             let body = scene.body();

@@ -254,23 +254,21 @@ impl<T: Real> OneOfSeveral<T> {
     /// much steeper there than further inside: the limit lies next to a corner.
     pub fn wall(&self, side: Side) -> Option<T> {
         let (on, panels) = (self.on, within(&self.panel_set.panels, self.on));
-        let [last, others] = match side {
-            Side::Left => {
-                panels.split_first().map(|(last, others)| [std::slice::from_ref(last), others])
-            }
-            Side::Right => {
-                panels.split_last().map(|(last, others)| [std::slice::from_ref(last), others])
-            }
-        }?;
+        let (last, others) = match side {
+            Side::Left => panels.split_first()?,
+            Side::Right => panels.split_last()?,
+        };
         let end = |panel: &Panel<T>| panel.x[usize::from(side == Side::Left)];
-        let wall = (on[side] - end(&last[0])).abs();
+        let wall = (on[side] - end(last)).abs();
         let half_width = on.half_width();
         if wall >= T::of(MAX_WALL) * half_width {
             return None;
         }
-        let value = |x: T| self.panel_set.slope(x).unwrap_or(T::zero());
-        let at_end = value(on[side]);
-        let all = (at_end - value(on.centre())).abs().max((at_end - value(on[side.other()])).abs());
+        // A limit that is held belongs to the panel inside, not to the one beyond the corner.
+        let far = if side == Side::Left { panels.last() } else { panels.first() }?;
+        let middle = self.panel_set.slope(on.centre())?;
+        let at_end = last.value(on[side]);
+        let all = (at_end - middle).abs().max((at_end - far.value(on[side.other()])).abs());
         let inward: &mut dyn Iterator<Item = &Panel<T>> = match side {
             Side::Left => &mut others.iter(),
             Side::Right => &mut others.iter().rev(),
