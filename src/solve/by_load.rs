@@ -92,6 +92,12 @@ struct Point<T> {
 }
 
 impl<T: Real> Point<T> {
+    /// Returns the exponent of the load as a power of the quantity, if it is known.
+    fn power(&self) -> Option<T> {
+        let power = self.value / (self.load * self.rate);
+        power.is_finite().then_some(power)
+    }
+
     /// Tells whether the quantity rises up to another point about like a power of the load: the
     /// exponents at both ends are within half of the mean one.
     fn rises_to(&self, to: &Self) -> bool {
@@ -116,8 +122,9 @@ pub(super) struct ByLoad<'s, 'w, 'b, T: Real> {
     /// Loads that are too small and too large.
     low: Option<Point<T>>,
     high: Option<Point<T>>,
-    /// Last two steps between such loads, as logarithms.
+    /// Last two steps between such loads, as logarithms, and the point of the last trial.
     steps: [T; 2],
+    last: Option<Point<T>>,
     /// Reason why a load is too large or too small, if it is not the quantity.
     fault: Option<ContactError<T>>,
 }
@@ -141,7 +148,7 @@ pub(super) fn find_of<'b, T: Real>(
     work: &mut Work<'_, T>,
 ) -> Fallible<T, (ContactState<T>, Gap<'b, T>)> {
     check_positive(name, wanted)?;
-    let (follows, low, high, fault) = (quantity.may_fall(contact), None, None, None);
+    let (follows, low, high, last, fault) = (quantity.may_fall(contact), None, None, None, None);
     let steps = [T::one() / T::zero(); 2];
     let gap = contact.gap.clone();
     let mut search = ByLoad {
@@ -156,6 +163,7 @@ pub(super) fn find_of<'b, T: Real>(
         low,
         high,
         steps,
+        last,
         fault,
     };
     let found = search.run()?;
@@ -179,7 +187,9 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                     let step = (self.wanted - at.value) / at.rate.component(0);
                     let size = step.abs() / load;
                     let is_near = size <= T::epsilon().sqrt();
-                    let is_there = T::DERIVATIVE_ORDER == 0 && size <= T::epsilon();
+                    let off = (self.wanted - at.value).abs();
+                    let least = T::of(2.0) * T::epsilon() * self.wanted;
+                    let is_there = T::DERIVATIVE_ORDER == 0 && off <= least;
                     last_steps = last_steps.filter(|_| is_near);
                     if last_steps == Some(0) || is_there {
                         let error = found.error.map(|error| error + size);
@@ -209,6 +219,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
             };
             *(if at.value < self.wanted { &mut self.low } else { &mut self.high }) = Some(at);
             load = self.inside(self.next(at), at.load);
+            self.last = Some(at);
             let is_closed = match (self.low, self.high) {
                 (Some(low), Some(high)) => high.load <= low.load * (T::one() + T::epsilon().sqrt()),
                 _ => load > first * T::of(MAX_FACTOR) || load < first / T::of(MAX_FACTOR),
@@ -319,14 +330,26 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
         Ok(found)
     }
 
-    /// Returns the next load by Newton's method for the logarithms, within its trusted range.
-    fn next(&self, Point { load, value, rate, .. }: Point<T>) -> T {
-        let power = value / (load * rate);
+    /// Returns the next load by Newton's method for the logarithms, within its trusted range. If
+    /// the step is shorter than the last one, it follows the cubic through both points, unless the
+    /// quantity may fall between them.
+    fn next(&self, at: Point<T>) -> T {
         // The exponent of a round body, if the rate is unknown.
-        let power = if power.is_finite() { power } else { T::of(2.0) };
-        let (step, largest) = ((self.wanted / value).powf(power), T::of(MAX_STEP));
-        let step = if step.is_finite() && value > T::zero() { step } else { largest };
-        load.component(0) * step.component(0).min(largest).max(largest.recip())
+        let power = at.power().unwrap_or(T::of(2.0));
+        let ahead = (self.wanted / at.value).ln();
+        let last = self.last.filter(|_| !self.follows);
+        let last = last.and_then(|last| Some((last, last.power()?)));
+        let bend = last.map_or(T::zero(), |(last, other)| {
+            let [back, fell] = [last.value / at.value, last.load / at.load].map(|by| by.ln());
+            let (mean, share) = (fell / back, ahead / back);
+            let cubic = power + other - mean - mean;
+            let bend = (mean - power - cubic + share * cubic) * share * ahead;
+            if share.abs() < T::one() { bend } else { T::zero() }
+        });
+        let step = (power * ahead + bend).exp();
+        let largest = T::of(MAX_STEP);
+        let step = if step.is_finite() && at.value > T::zero() { step } else { largest };
+        at.load.component(0) * step.component(0).min(largest).max(largest.recip())
     }
 
     /// Returns the conclusion from a failed trial on its load.
