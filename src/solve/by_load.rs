@@ -47,10 +47,6 @@ const LEAST_STEP: f64 = 1.001;
 /// waves is 2 % of the period.
 const LARGEST_SHARE: f64 = 0.999;
 
-/// Least jump of a quantity, as a share of it in roots of the rounding unit. (Next to corners the
-/// rounding of x changes the approach by up to eight of them.)
-const LEAST_JUMP: f64 = 64.0;
-
 /// Largest factor between a load and the first one while the load is not enclosed.
 const MAX_FACTOR: f64 = 1e12;
 
@@ -234,12 +230,11 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
     }
 
     /// Returns a contact found between loads that have closed in, if the quantity does not jump
-    /// there.
+    /// there. (Next to corners the rounding of x changes the approach by some √ε.)
     fn across(&mut self, found: ContactState<T>) -> Fallible<T, ContactState<T>> {
         let ends = self.low.zip(self.high);
         let jump = ends.map(|(low, high)| (high.value - low.value) / self.wanted);
-        let least = T::of(LEAST_JUMP) * T::epsilon().sqrt();
-        let jump = jump.filter(|&jump| jump <= least).ok_or_else(|| self.none())?;
+        let jump = jump.filter(|&jump| jump <= T::epsilon().cbrt()).ok_or_else(|| self.none())?;
         Ok(ContactState { error: found.error.map(|error| error + jump), ..found })
     }
 
