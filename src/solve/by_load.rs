@@ -2,10 +2,11 @@
 //!
 //! Each [`Quantity`] has a file: its value, its rate and the load to begin with. Newton's method on
 //! ln q over ln F finds the load, between loads that are too small and too large; for a power law
-//! it takes one step. Each trial is a solve by load, and its samples serve the next. A quantity may
-//! jump: the half-width when a contact is born outside the others, the peak when a corner is
-//! reached. A value inside a jump has no load. Between such loads a step that is not less than half
-//! of the last but one gives way to the middle, so that the loads close in (Brent's rule).
+//! it takes one step. Short steps follow the cubic through two points with their rates. Each trial
+//! is a solve by load, and its samples serve the next. A quantity may jump: the half-width when a
+//! contact is born outside the others, the peak when a corner is reached. A value inside a jump has
+//! no load. Between such loads a step that is not less than half of the last but one gives way to
+//! the middle, so that the loads close in (Brent's rule).
 //!
 //! A quantity that may fall can have a value under several loads. The one sought lies on the branch
 //! from first touch, where the quantity rises: a load under which it falls is too large. It is
