@@ -28,7 +28,8 @@ pub(super) struct Candidate<T> {
     pub level: usize,
     /// True if another halving should help, whatever the level.
     pub falls: bool,
-    /// True if a halving has doubled the error, as of noise: parts start with the fewest nodes.
+    /// True if parts start with the fewest nodes: a halving has doubled the error, as of noise, or
+    /// there seems to be a kink, which needs as many halvings whatever their nodes.
     pub sparse: bool,
     /// True if the span is part of a wave that looked like noise.
     pub wave: bool,
@@ -44,6 +45,14 @@ impl<T: Real> Candidate<T> {
         let [split, falls, sparse, wave, hides] = [false; 5];
         let (panel, [allowed, derivatives]) = (Panel::new(x), [T::zero(); 2]);
         Self { panel, split, allowed, level: 0, falls, sparse, wave, hides, derivatives }
+    }
+
+    /// Tells whether the coefficients fall, if only as those of a kink do: like a low power of
+    /// their number. Those of a wave that is not resolved stay.
+    pub fn falls_slowly(&self) -> bool {
+        let (n, largest) = (self.panel.n, |most: T, a: &T| most.max(a.abs()));
+        let before = self.panel.series[n / 4..n / 2].iter().fold(T::zero(), largest);
+        self.panel.series[n - n / 4..n].iter().all(|a| a.abs() + a.abs() < before)
     }
 
     /// Tells whether the span may be halved again.

@@ -57,7 +57,7 @@ impl<T: Real> PanelSet<T> {
     ) -> Result<(), ContactError<T>> {
         let [left, right] = trial.panel.x;
         gap.check_budget(self.spent + self.cost, 1, 0, Interval { left, right })?;
-        let first = if trial.sparse { MIN_NODES } else { self.initial };
+        let first = if trial.sparse && trial.may_be_halved() { MIN_NODES } else { self.initial };
         let mut nodes = Some(if self.coarse { 4 } else { first });
         while let Some(n) = nodes {
             let seen = by_size!(n, N => self.sample_panel::<N>(gap, &mut trial.panel))?;
