@@ -407,6 +407,11 @@ impl<'b, T: Real> Gap<'b, T> {
         breakpoints.reduce(T::max).filter(|&breakpoint| breakpoint > self.range[0])
     }
 
+    /// Tells whether either profile has several pieces.
+    pub(crate) fn is_joined(&self) -> bool {
+        self.bodies.iter().any(|body| body.joined.is_some())
+    }
+
     /// Tells whether either profile passes from one piece to the next at `x`.
     pub(crate) fn is_breakpoint(&self, x: T) -> bool {
         self.bodies.iter().any(|body| body.pieces_at(x).is_some())

@@ -201,7 +201,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     /// Moves the contacts at hand until they bear the load, held at corners or let go; repeats as
     /// long as their panels miss narrow features.
     fn converge(&mut self) -> Result<ContactState<T>, Fault<T>> {
-        self.hold()?;
+        let may_be_held = self.hold()?;
         let (mut fault, mut passed) = (None, Ends::both(0));
         for _ in 0..MAX_HELD_ROUNDS {
             let mut found = match self.converge_once() {
@@ -209,7 +209,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
                 // With limits held the contact is wider, and may need more than the bodies have, or
                 // may not reach so far.
                 Err(other @ (Fault::Beyond(_) | Fault::Error(_)))
-                    if fault.is_none() && self.lets_all_go() =>
+                    if may_be_held && fault.is_none() && self.lets_all_go() =>
                 {
                     fault = Some(other);
                     continue;
@@ -219,7 +219,9 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             if self.misses(&found)? {
                 continue;
             }
-            if !self.passes(&found, &mut passed) && !self.lets_go(&mut found, passed)? {
+            if !may_be_held
+                || !self.passes(&found, &mut passed) && !self.lets_go(&mut found, passed)?
+            {
                 return Ok(found);
             }
         }

@@ -94,8 +94,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Holds the limits at hand that are at an end of the bodies, or next to a corner inside them.
-    /// A contact whose place is not known is held at both ends.
-    pub(super) fn hold(&mut self) -> Fallible<T, ()> {
+    /// A contact whose place is not known is held at both ends. Tells whether limits may be held at
+    /// all.
+    pub(super) fn hold(&mut self) -> Fallible<T, bool> {
         let (ends, conditions, is_of_one) =
             (self.contact.ends(), self.conditions, self.is_of_one());
         let at_corner = self.edges().map(|edge| matches!(edge, Edge::FreeUntil(_)));
@@ -104,7 +105,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             &mut *self.work.workspace;
         held.clear();
         if is_of_one && at_corner == Ends::both(false) {
-            return Ok(());
+            return Ok(self.contact.gap.is_joined());
         }
         before.clone_from(on);
         held.resize(on.len().max(1), Ends::both(false));
@@ -126,7 +127,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             }
         }
         if is_of_one {
-            return Ok(());
+            return Ok(true);
         }
         let sum = |sum: T, on: &Interval<T>| sum + on.half_width();
         let mean = conditions.load() / conditions.kappa / on.iter().fold(T::zero(), sum);
@@ -142,7 +143,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 }
             }
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Holds a limit at a corner.

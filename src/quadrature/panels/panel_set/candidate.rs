@@ -47,12 +47,14 @@ impl<T: Real> Candidate<T> {
         Self { panel, split, allowed, level: 0, falls, sparse, wave, hides, derivatives }
     }
 
-    /// Tells whether the coefficients fall, if only as those of a kink do: like a low power of
-    /// their number. Those of a wave that is not resolved stay.
-    pub fn falls_slowly(&self) -> bool {
+    /// Tells whether the coefficients fall as those of a kink do, like a low power of their number:
+    /// from the second quarter to the last to a third, a ninth or a twenty-seventh. Those of a wave
+    /// stay as long as it is not resolved, and then fall by far more.
+    pub fn has_kink(&self) -> bool {
         let (n, largest) = (self.panel.n, |most: T, a: &T| most.max(a.abs()));
-        let before = self.panel.series[n / 4..n / 2].iter().fold(T::zero(), largest);
-        self.panel.series[n - n / 4..n].iter().all(|a| a.abs() + a.abs() < before)
+        let largest = |from| self.panel.series[from..from + n / 4].iter().fold(T::zero(), largest);
+        let (before, last) = (largest(n / 4), largest(n - n / 4));
+        last + last < before && T::count(n) * last > before
     }
 
     /// Tells whether the span may be halved again.
