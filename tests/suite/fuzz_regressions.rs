@@ -352,7 +352,7 @@ fn a_search_spends_no_more_than_its_budget() {
     assert!(last.left < last.right && last.left >= -1.1 && last.right <= 1.1);
     let contact = Contact::new(&Flat, &coarse).unwrap();
     let solution = contact.solve(Control::HalfWidth(0.3)).unwrap();
-    assert!(solution.cost().evaluations < 100_000 && solution.limits_error() < Some(1e-5));
+    assert!(solution.cost().evaluations < 8_000 && solution.limits_error() < Some(1e-5));
 }
 
 /// Seed 405059: bodies too short for the adhesion at one edge. The search goes down to the smallest
