@@ -413,7 +413,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         workspace.bent = id;
         (workspace.report, workspace.cell_work) = (Report::new(), 0);
         let found = find_under(&scene, control, self.work)?;
-        self.check_width(found.interval, MOST_TIMES)?;
+        if let Err(error) = self.check_width(found.interval, MOST_TIMES) {
+            self.work.workspace.keep(&[found.interval]);
+            return Err(error);
+        }
         let contacts = self.work.integrator.contacts(&found.interval).to_vec();
         self.look_beside(&contacts)?;
         self.work.keep(&gap.tilted(found.tilt), found.interval)?;

@@ -26,7 +26,9 @@ use crate::gap::{Asked, Gap};
 use crate::kernel::Kernel;
 use crate::search::SearchError;
 use crate::solution::{ContactState, Report, Solved};
-use crate::{ContactError, Ends, EvaluationError, Fallible, Interval, Real, SolveError};
+use crate::{
+    ContactError, Ends, EvaluationError, Fallible, InputError, Interval, Real, SolveError,
+};
 pub(super) use approach::ByApproach;
 pub(super) use half_width::HalfWidth;
 pub(super) use peak::Peak;
@@ -358,7 +360,8 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
         if self.kernel.is_some() {
             // What half-planes, or bodies with the bend of another load, bear is no bound.
             return match *error {
-                ContactError::Solve(Bending { .. } | DomainTooShort { .. }) => {
+                ContactError::Solve(Bending { .. } | DomainTooShort { .. })
+                | ContactError::Input(InputError::LayerTooThin { .. }) => {
                     Ok(ControlFlow::Continue(unknown(load, infinite)))
                 }
                 // Nearer to complete contact nothing is solved.

@@ -130,6 +130,22 @@ fn a_rough_body_on_a_layer() {
     }
 }
 
+/// A cover of rubber on steel has the same contact on a body three thousand thicknesses wide, where
+/// half-planes of the rubber would touch over two hundred, as on a narrow one.
+#[test]
+fn the_width_of_the_bodies_does_not_count() {
+    let steel = Material::elastic(210e3, 0.3);
+    let cover = layer(5.0, 0.48, 0.02, Base::HalfPlane(steel));
+    let found = [3.0, 60.0].map(|half| {
+        let body = Parabola::new(100.0, [-half, half]).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let contact = contact.materials(steel, cover, PlaneState::Strain);
+        contact.solve(Control::Load(1.0)).unwrap().a()
+    });
+    assert!((found[0] - 0.439_955_635).abs() < 1e-8, "{found:?}");
+    assert!((found[1] / found[0] - 1.0).abs() < 1e-11, "{found:?}");
+}
+
 /// A thin layer on a rigid base: the factors of Wiener and Hopf, exact but for `exp(-a/h)`.
 #[test]
 fn thin_layers_follow_the_law_of_wiener_and_hopf() {

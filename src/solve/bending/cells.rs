@@ -10,7 +10,7 @@ use crate::gap::Sampler;
 use crate::kernel::{Given, Kept, at_least, pressed};
 use crate::solve::active_set::{Coarse, FIRST_CELLS, LENGTH, NotFound, Scene, active_set};
 use crate::solve::capacity::Capacity;
-use crate::{ContactError, Control, Edge, Fallible, Real, Side};
+use crate::{ContactError, Control, Edge, Ends, Fallible, Real, Side};
 
 /// Factor by which cells may be wrong in a contact that is too wide.
 const DOUBT: f64 = 1.01;
@@ -80,11 +80,29 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         Ok(borne.too_short(load))
     }
 
-    /// Returns the contacts of cells.
-    fn coarse(&mut self, (load, at): Load<T>) -> Fallible<T, Option<Coarse<T>>> {
+    /// Returns the contacts of cells: of those around a contact that is too wide for the layer, as
+    /// on half-planes of it, and of all if they do not suffice.
+    fn coarse(&mut self, load: Load<T>) -> Fallible<T, Option<Coarse<T>>> {
+        let Ends { left, right } = self.contact.ends_of(&self.gap);
+        let is_wide = matches!(&self.fault, Some(ContactError::Input(_)));
+        if let Some(on) = self.work.workspace.hull().filter(|_| is_wide) {
+            let room = on.half_width();
+            let around = [(on.left - room).max(left), (on.right + room).min(right)];
+            let coarse = self.coarse_within(load, around)?;
+            if let Some(coarse) = coarse.filter(|coarse| coarse.reaches == Ends::both(false)) {
+                return Ok(Some(coarse));
+            }
+        }
+        self.coarse_within(load, [left, right])
+    }
+
+    /// Returns the contacts of cells of a part of the bodies.
+    fn coarse_within(
+        &mut self,
+        (load, at): Load<T>,
+        range: [T; 2],
+    ) -> Fallible<T, Option<Coarse<T>>> {
         let (kernel, gap, kappa) = (&self.kernel, &self.gap, self.contact.kappa);
-        let ends = self.contact.ends_of(gap);
-        let range = [ends.left, ends.right];
         // Cut in three again and again, the cells have the width that resolves the kernel.
         let mut count = (range[1] - range[0]) / (T::of(LENGTH) * kernel.distance());
         while count > T::count(3 * FIRST_CELLS) && count.is_finite() {
