@@ -4,13 +4,24 @@ use crate::call::{self, Array, Numbers};
 use crate::control::{ReferenceRow, references};
 use linecontact::stress::{Stress, StressPeak, Subsurface};
 use linecontact::{
-    Body, ContactError, Cost, Ends, Extremum, Interval, Peak, Pressure, Uncertainty,
+    Body, ContactError, Cost, Ends, EvaluationError, Extremum, Interval, Peak, Pressure,
+    Uncertainty,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::fmt::Debug;
 
 type Pair = (f64, f64);
+
+/// Takes zero for the gap, or its slope, at a place in a contact.
+fn or_zero(found: Result<f64, ContactError<f64>>) -> Result<f64, ContactError<f64>> {
+    match found {
+        Err(ContactError::Evaluation(EvaluationError::InvalidPosition {
+            inside: false, ..
+        })) => Ok(0.0),
+        found => found,
+    }
+}
 
 /// Fields of a [`Cost`].
 type Counts = (usize, usize, usize, usize, usize);
@@ -100,11 +111,6 @@ impl Solution {
             below = below.within([from, to])?;
         }
         below.friction(friction)
-    }
-
-    /// Tells whether a place is in a contact, where there is no gap.
-    fn touches(&self, x: f64) -> bool {
-        self.0.intervals().iter().any(|on| x >= on.left && x <= on.right)
     }
 }
 
@@ -305,14 +311,13 @@ impl Solution {
 
     fn gap(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
         let x = x.as_array().to_vec();
-        let at = |x| if self.touches(x) { Ok(0.0) } else { self.0.gap_at(x) };
+        let at = |x| or_zero(self.0.gap_at(x));
         Ok(call::array(py, call::library(py, || call::each(&x, at))?))
     }
 
     fn gap_slope(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
         let x = x.as_array().to_vec();
-        let inside = |x| self.0.intervals().iter().any(|on| on.contains(x));
-        let at = |x| if inside(x) { Ok(0.0) } else { self.0.gap_slope(x) };
+        let at = |x| or_zero(self.0.gap_slope(x));
         Ok(call::array(py, call::library(py, || call::each(&x, at))?))
     }
 

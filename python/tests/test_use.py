@@ -205,6 +205,8 @@ def test_bodies_repeat_with_a_period() -> None:
     peak = 2.0 * math.pi * height / period * math.sqrt(sine)
     assert np.abs(solution.pressure(np.array([0.0, period, -period])) / peak - 1.0).max() < 1e-13
     assert solution.certify().is_proved
+    inside = np.array([0.0, 0.1, period, -period, 2.0 * period - 0.1])
+    assert not solution.gap(inside).any() and not solution.gap_slope(inside).any()
     with pytest.raises(lc.errors.CompleteContactError) as failed:
         contact.solve(load=0.07)
     assert abs(failed.value.complete - math.pi * height) < 1e-12
