@@ -15,6 +15,7 @@ import pytest
 from scenes import Array, gear
 
 import linecontact as lc
+from linecontact import exploring
 
 FLAT = lc.Flat()
 BODY = lc.Parabola(1.0, (-1.0, 1.0))
@@ -24,6 +25,14 @@ UNITS = ("mm", "MPa", "N/mm")
 
 def bumps(x: Array) -> tuple[Any, ...]:
     return x, x**4 - 2 * x**2, 1.0, 4 * x**3 - 4 * x
+
+
+def wave(x: Array) -> tuple[Any, ...]:
+    return x, 0.01 * (1 - np.cos(2 * np.pi * x)), 1.0, 0.02 * np.pi * np.sin(2 * np.pi * x)
+
+
+def ripple(x: Array) -> tuple[Any, ...]:
+    return x, -0.003 * (1 - np.cos(4 * np.pi * x)), 1.0, -0.012 * np.pi * np.sin(4 * np.pi * x)
 
 
 def read(page: Path) -> Any:
@@ -63,6 +72,11 @@ CONTACTS: dict[str, tuple[lc.Contact, list[float]]] = {
     "adhesive": (
         lc.Contact(FLAT, BODY, kappa=1.0, edges=(lc.Edge.adhesive(1e-4), lc.Edge.adhesive(1e-4))),
         [-0.001, 0.0, 0.02],
+    ),
+    # Their contacts go across the ends of the described periods, 0 and 1, and 0.3 and 1.3.
+    "repeated": (
+        lc.Contact(lc.Curve((0.3, 1.3), ripple), lc.Curve((0, 1), wave), contact_modulus=1e3, period=1.0),
+        [1.0, 10.0, 20.0],
     ),
     "end of a body": (lc.Contact(FLAT, lc.Parabola(1.0, (-0.21, 1.0)), kappa=1.0), [0.02]),
 }
@@ -111,6 +125,33 @@ def test_the_numbers_are_those_of_the_solver(name: str, tmp_path: Path) -> None:
         exact = solution.stress(at, depth[1:, None]).max_shear()
         np.testing.assert_allclose(shear[1:], exact, rtol=0.0, atol=0.51 * frame["field"]["unit"])
         assert 0.0 < frame["shear_axis"] <= (frame["shear"]["value"] or math.inf)
+
+
+def test_bodies_that_repeat_are_drawn_about_the_contacts(tmp_path: Path) -> None:
+    contact, loads = CONTACTS["repeated"]
+    data = read(lc.explore(contact, loads, tmp_path / "page.html"))
+    left, right = data["window"]
+    before = {name: array(packed) for name, packed in data["before"].items()}
+    touching = np.nanmin(wave(before["x"])[1] - ripple(before["x"])[1])
+    np.testing.assert_allclose(before["lower"], ripple(before["x"])[1], atol=1e-13)
+    np.testing.assert_allclose(before["upper"], wave(before["x"])[1] - touching, atol=1e-13)
+    for frame in data["frames"]:
+        x, gap, lower = (array(frame[key]) for key in ("x", "gap", "lower"))
+        assert (x[0], x[-1]) == (left, right) and np.all(np.isfinite(lower))
+        hull = [frame["contacts"][0]["left"], frame["contacts"][-1]["right"]]
+        assert left < hull[0] - 0.05 and hull[1] + 0.05 < right and frame["shifts"] == [0.0]
+        assert np.all(gap[(x < hull[0]) | (x > hull[1])] > 0.0)
+
+
+def test_a_contact_that_is_shown_again_is_pressed_there_too() -> None:
+    solution = CONTACTS["repeated"][0].solve(load=1.0)
+    (on,) = solution.intervals
+    found = exploring._curves(solution, None, (on.centre - 0.7, on.right + 1.1))
+    x, pressure, gap = (array(found[key]) for key in ("x", "pressure", "gap"))
+    assert found["shifts"] == [0.0, 1.0] and np.all(np.diff(x) > 0.0)
+    again = (x >= on.left + 1.0) & (x <= on.right + 1.0)
+    assert np.sum(again) > 100 and np.all(gap[again] == 0.0) and np.max(pressure[again]) == solution.peak().pressure
+    np.testing.assert_allclose(pressure, solution.pressure(x), rtol=1e-6, atol=1e-6)
 
 
 def test_what_is_infinite(tmp_path: Path) -> None:

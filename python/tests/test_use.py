@@ -664,6 +664,41 @@ def test_stresses_of_partial_slip() -> None:
     assert slip.normal.max_tension().value == 0.0
 
 
+def test_bodies_that_repeat_are_drawn_all_over_the_picture() -> None:
+    def wave(x: Array) -> tuple[Any, ...]:
+        return x, 0.01 * (1 - np.cos(2 * np.pi * x)), 1.0, 0.02 * np.pi * np.sin(2 * np.pi * x)
+
+    contact = lc.Contact(FLAT, lc.Curve((0, 1), wave), contact_modulus=1e3, period=1.0)
+    for load in (5.0, 20.0):
+        solution = contact.solve(load=load)
+        (on,) = solution.intervals
+        assert on.left < 0.95 and on.right > 1.05
+        bodies_, pressure, shear, _ = solution.plot().axes
+        x, upper = (np.asarray(part, dtype=float) for part in bodies_.lines[0].get_data())
+        np.testing.assert_allclose(upper, wave(x)[1], atol=1e-12)
+        assert x[0] < on.left - 0.1 and on.right + 0.1 < x[-1]
+        # The next contacts are not in the picture.
+        assert on.right - 1.0 < x[0] and x[-1] < on.left + 1.0
+        assert shear.get_xlim()[0] <= x[0] and x[-1] <= shear.get_xlim()[1]
+    apart = contact.solve(load=0.0).plot().axes[0].lines[0]
+    x, upper = (np.asarray(part, dtype=float) for part in apart.get_data())
+    assert np.all(np.isfinite(upper)) and math.isclose(np.ptp(x), 1.0)
+
+
+def test_measured_points_that_repeat_are_drawn_about_the_contact() -> None:
+    x = np.linspace(-0.5, 0.5, 201)
+    points = np.column_stack([x, np.where(np.abs(x) < 0.4, -0.01 * (1 + np.cos(2.5 * np.pi * x)), 0.0)])
+    solution = lc.Contact(FLAT, lc.Spline(points), contact_modulus=1e3, period=1.0).solve(load=1.0)
+    bodies_ = solution.plot().axes[0]
+    dots = next(line for line in bodies_.lines if line.get_label() == "measured")
+    drawn, heights = (np.asarray(part, dtype=float) for part in dots.get_data())
+    # It is beyond the end of the points as given.
+    assert solution.hull.left > 0.9 and np.min(drawn) < solution.hull.left and solution.hull.right < np.max(drawn)
+    at = np.argsort(drawn)
+    x, upper = (np.asarray(part, dtype=float) for part in bodies_.lines[0].get_data())
+    np.testing.assert_allclose(np.interp(x, drawn[at], heights[at]), upper, atol=3e-5)
+
+
 def test_drawn_bodies_just_touch() -> None:
     roller = lc.Ellipse.circle(10.0, (-1.0, 1.0)).shifted(0.0, 5.0)
     figure = lc.solve(lc.Line(0.0, (-3, 3)).rotated(0.0), roller, kappa=1.0, load=0.01).plot()

@@ -61,11 +61,26 @@ def svg(solution: Solution) -> str:
     )
 
 
+def period(contact: Contact) -> float | None:
+    """Returns the length after which both bodies repeat, if they do."""
+    found: float | None = contact._settings["period"]
+    return found
+
+
+def heights(contact: Contact, body: Body, x: FloatArray) -> FloatArray:
+    """Returns the heights of a body of a contact, repeated with the period, if there is one."""
+    left, right = _ends(body)
+    after = period(contact)
+    if after is not None and np.isfinite(left):
+        x = np.minimum(left + np.mod(x - left, after), right)
+    return body.heights(x)
+
+
 def before_loading(
     contact: Contact, x: FloatArray, tilt: float = 0.0
 ) -> tuple[FloatArray, FloatArray]:
     """Returns the heights of both bodies, brought together until they just touch."""
-    lower, upper = contact.lower.heights(x), contact.upper.heights(x) + tilt * x
+    lower, upper = heights(contact, contact.lower, x), heights(contact, contact.upper, x) + tilt * x
     shown = np.isfinite(lower) & np.isfinite(upper)
     touching = np.min((upper - lower)[shown], initial=np.inf)
     return lower, upper - touching if np.isfinite(touching) else upper
@@ -142,6 +157,9 @@ def _draw_points(axes: Axes, contact: Contact, up: float, tilt: float) -> None:
     for body, color, rise, turn in ((contact.upper, "#08519c", up, tilt), (contact.lower, "#a63603", 0.0, 0.0)):
         points = measured(body)
         if points is not None:
+            if (after := period(contact)) is not None:
+                # The picture is no wider than a period.
+                points[:, 0] = left + np.mod(points[:, 0] - left, after)
             x, y = points[(points[:, 0] >= left) & (points[:, 0] <= right)].T
             axes.plot(x, y + rise + turn * x, ".", color=color, markersize=3, label="measured")
             axes.legend(loc="best")
@@ -169,7 +187,7 @@ def _plot_apart(solution: Solution, lengths: str) -> Figure:
     """Draws bodies that are apart, all that they have in common."""
     figure = _figure(3.2)
     axes, contact = figure.subplots(), solution.contact
-    x = np.linspace(*common_range(contact), 401)
+    x = np.linspace(*covered(solution), 401)
     lower, upper = before_loading(contact, x)
     _draw_bodies(axes, x, (lower, upper + solution.separation), lengths)
     axes.set_title(str(solution).splitlines()[0])
@@ -177,10 +195,20 @@ def _plot_apart(solution: Solution, lengths: str) -> Figure:
     return figure
 
 
-def common_range(contact: Contact) -> tuple[float, float]:
-    """Returns the range of x that both bodies cover."""
-    ends = [np.sort(body.at(body.domain)[0]) for body in (contact.lower, contact.upper)]
-    return max(float(left) for left, _ in ends), min(float(right) for _, right in ends)
+def _ends(body: Body) -> tuple[float, float]:
+    """Returns the smallest and the largest x of a body."""
+    left, right = np.sort(body.at(body.domain)[0])
+    return float(left), float(right)
+
+
+def covered(solution: Solution) -> tuple[float, float]:
+    """Returns the range of x that both bodies cover; if they repeat, the period about the contacts."""
+    contact, centre = solution.contact, solution.hull.centre
+    after = period(contact)
+    if after is not None:
+        return centre - 0.5 * after, centre + 0.5 * after
+    (left, right), (other_left, other_right) = _ends(contact.lower), _ends(contact.upper)
+    return max(left, other_left), min(right, other_right)
 
 
 def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = None) -> Figure:
@@ -193,17 +221,20 @@ def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = No
         raise TypeError(f'units are {units!r}: give names of the units of lengths and pressures, as ("mm", "MPa")')
     lengths, pressures = (f" / {unit}" if unit else "" for unit in units[:2])
     on, contact = solution.hull, solution.contact
-    beside = 2 * BESIDE * on.half_width
     of_each: Sequence[tuple[Side | None, float]] = [("lower", np.inf)] if slip else bodies_below(contact)
     if solution.is_apart:
         return _plot_apart(solution, lengths)
+    beside = 2 * BESIDE * on.half_width
+    if period(contact) is not None:
+        # The next contacts, whose pressure is not drawn, are not shown.
+        beside = min(beside, covered(solution)[1] - on.right)
     x = np.linspace(on.left - beside, on.right + beside, 401)
     figure = _figure(5.3 + 2.7 * len(of_each))
     bodies, pressure, *shears = figure.subplots(2 + len(of_each), 1, sharex=True)
 
     lower, upper = before_loading(contact, x, solution.tilt)
     _draw_bodies(bodies, x, (lower, upper), lengths)
-    _draw_points(bodies, contact, float(np.nanmax(upper - contact.upper.heights(x))), solution.tilt)
+    _draw_points(bodies, contact, float(np.nanmax(upper - heights(contact, contact.upper, x))), solution.tilt)
     bodies.set_title(_title(solution, units, "" if slip is None else f", force {slip.force:.6g}"))
 
     places, values = solution.sample(257)

@@ -20,7 +20,7 @@ from ._numbers import FloatArray, Numbers, Range, as_numbers, one_of
 from .below import bodies, materials
 from .bodies import Body
 from .contact import Contact, Material, contact_modulus
-from .drawing import BESIDE, before_loading, common_range
+from .drawing import BESIDE, before_loading, covered, heights, period
 from .errors import LineContactError, SingularError
 from .slipping import PartialSlip, Side, acting, slipped_again
 from .solution import Solution
@@ -42,7 +42,7 @@ _SHALLOW, _MEANS = 0.1, 3.0
 # Depth of the row that stands for the surface under a traction, in half-widths: on the surface
 # itself stress may be infinite at a tip.
 _SURFACE = 1e-9
-# Largest strength of a singularity that counts as zero, in mean pressures: rounding.
+# Largest strength of a singularity in mean pressures, and length in periods, that count as zero: rounding.
 _ROUNDING = 1e-12
 # Largest number of characters of the description of a body.
 _WORDS = 400
@@ -132,11 +132,10 @@ def explore(
     if wanted.size == 0 or not np.all(np.isfinite(wanted)):
         raise ValueError("give at least one load, and finite ones")
     below = _below(contact, body)
-    reach = common_range(contact)
     solved = _solved(contact, wanted.tolist(), None if friction is None else along)
-    spans = [_window(_normal(one), reach) for one in solved.values() if not isinstance(one, LineContactError)]
+    spans = [_window(_normal(one)) for one in solved.values() if not isinstance(one, LineContactError)]
     window = min((left for left, _ in spans), default=0.0), max((right for _, right in spans), default=0.0)
-    frames = {load: _frame(one, window, reach, below) for load, one in solved.items()}
+    frames = {load: _frame(one, window, below) for load, one in solved.items()}
     errors = [frame for frame in frames.values() if isinstance(frame, LineContactError)]
     if len(errors) == len(frames):
         raise errors[0]
@@ -182,9 +181,9 @@ def _normal(solved: Solution | PartialSlip) -> Solution:
     return solved.normal if isinstance(solved, PartialSlip) else solved
 
 
-def _window(solution: Solution, reach: Range) -> Range:
+def _window(solution: Solution) -> Range:
     """Returns the range of x to be shown: the contacts and a margin on either side."""
-    on = solution.hull
+    on, reach = solution.hull, covered(solution)
     beside = 2 * BESIDE * on.half_width
     return max(on.left - beside, reach[0]), min(on.right + beside, reach[1])
 
@@ -192,7 +191,6 @@ def _window(solution: Solution, reach: Range) -> Range:
 def _frame(
     solved: Solution | PartialSlip | LineContactError,
     window: Range,
-    reach: Range,
     below: tuple[Side | None, float],
 ) -> dict[str, Any] | LineContactError:
     """Returns the data that the page shows for one load."""
@@ -200,7 +198,7 @@ def _frame(
         return solved
     solution, slip = _normal(solved), solved if isinstance(solved, PartialSlip) else None
     try:
-        numbers = {**_numbers(solution), "window": _window(solution, reach)}
+        numbers = {**_numbers(solution), "window": _window(solution)}
         if slip is not None:
             numbers |= {"stick_zones": slip.stick_zones, "tension": _tension(slip)}
         return {**numbers, **_curves(solution, slip, window), **_field(solution, slip, window, below)}
@@ -253,13 +251,16 @@ def _curves(solution: Solution, slip: PartialSlip | None, window: Range) -> dict
     With partial slip it also returns the traction.
     """
     sampled, _ = (solution if slip is None else slip).sample(_INSIDE)
-    inside, beside = np.column_stack([sampled, solution.pressure(sampled)]), _beside(solution, window)
-    left_out = np.reshape(_left_out(solution, inside[:, 0]), (-1, 2))
-    table = np.concatenate([inside, left_out, np.column_stack([beside, np.zeros(beside.size)])])
-    gaps = np.concatenate([np.zeros(len(inside) + len(left_out)), solution.gap(beside)])
+    left_out = np.reshape(_left_out(solution, sampled), (-1, 2))
+    inside = np.concatenate([np.column_stack([sampled, solution.pressure(sampled)]), left_out])
+    inside = np.concatenate([inside + (shift, 0.0) for shift in _shifts(solution, window)])
+    beside = _beside(solution, window)
+    table = np.concatenate([inside, np.column_stack([beside, np.zeros(beside.size)])])
+    gaps = np.concatenate([np.zeros(len(inside)), solution.gap(beside)])
     order = np.argsort(table[:, 0], kind="stable")
     (x, pressures), gap = table[order].T, gaps[order]
-    lower, upper = solution.contact.lower.heights(x), solution.contact.upper.heights(x)
+    contact = solution.contact
+    lower, upper = heights(contact, contact.lower, x), heights(contact, contact.upper, x)
     # Deformation of both surfaces together, less the approach of the bodies: the loaded gap minus
     # the gap before loading.
     given_way = gap - (upper - lower)
@@ -277,12 +278,23 @@ def _curves(solution: Solution, slip: PartialSlip | None, window: Range) -> dict
         top = top if peak is None else max(top, float(np.nanmax(traction)))
     return {
         **along,
+        "shifts": _shifts(solution, window).tolist(),
         "x": _packed(x),
         "pressure": _packed(pressures),
         "gap": _packed(gap),
-        "lower": _packed(lower - _share_of_lower(solution.contact) * (given_way - np.mean(ends))),
+        "lower": _packed(lower - _share_of_lower(contact) * (given_way - np.mean(ends))),
         "pressure_axis": [max(least, -top), top],
     }
+
+
+def _shifts(solution: Solution, window: Range) -> FloatArray:
+    """Returns the distances at which contacts are repeated in the window: 0, and whole periods."""
+    after, on = period(solution.contact), solution.hull
+    if after is None:
+        return np.zeros(1)
+    # Rounding at the ends of the window makes no copy there.
+    first, last = (window[0] - on.right) / after + _ROUNDING, (window[1] - on.left) / after - _ROUNDING
+    return np.arange(math.ceil(first), math.floor(last) + 1, dtype=np.float64) * after
 
 
 def _left_out(solution: Solution, sampled: FloatArray) -> list[tuple[float, float]]:
@@ -315,8 +327,8 @@ def _beside(solution: Solution, window: Range) -> FloatArray:
         strength > 0.0 and _is_infinite(solution, strength)
         for strength in solution.edge_singularities
     ]
-    limits = [limit for on in solution.intervals for limit in on]
-    bounds = np.reshape([window[0], *limits, window[1]], (-1, 2))
+    limits = np.ravel(np.add.outer(_shifts(solution, window), np.ravel(solution.intervals)))
+    bounds = np.reshape([window[0], *np.clip(limits, *window), window[1]], (-1, 2))
     bounds = bounds[int(pressed[0]) : len(bounds) - int(pressed[1])]
     bounds = bounds[bounds[:, 0] < bounds[:, 1]]
     share = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _OUTSIDE))

@@ -11,7 +11,7 @@ import numpy as np
 
 from .below import Below, materials
 from .contact import Layer
-from .drawing import common_range
+from .drawing import covered
 from .errors import HalfPlanesOnlyError, LineContactError, SingularError
 from .solution import Solution, StressPeak
 
@@ -133,7 +133,7 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
         for of in ("von_mises", "tresca"):
             numbers[f"safety_{of}"] = yield_stress / numbers[of] if numbers[of] != 0.0 else math.inf
     # Of bodies that are apart, places are known to the rounding of their x.
-    least = _EXACT * float(np.ptp(common_range(scene.contact))) if solution.is_apart else _ROUNDING * solution.half_width
+    least = _EXACT * float(np.ptp(covered(solution))) if solution.is_apart else _ROUNDING * solution.half_width
     for name in ("left", "right", "centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
         numbers[name] = 0.0 if abs(numbers[name]) < least else numbers[name]
     named = {name: words for name, words in places.items() if words}
