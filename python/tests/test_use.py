@@ -591,6 +591,29 @@ def test_titles_show_load_and_peak_with_units() -> None:
     assert "pressure infinite at x = " in punch.plot().axes[0].get_title()
 
 
+def test_the_axis_of_pressure_is_cut_where_it_is_infinite() -> None:
+    corners = lc.Edge.fixed(-1.0), lc.Edge.fixed(1.0)
+    adhesive = lc.Edge.adhesive(1e-4), lc.Edge.adhesive(1e-4)
+    scenes = [
+        (lc.Contact(FLAT, FLAT, contact_modulus=1e5, edges=corners), 250.0, "infinite at x = -1, 1 mm"),
+        (lc.Contact(FLAT, BODY, kappa=1.0, edges=(lc.Edge.fixed(-0.1), lc.Edge.free())), 0.02, "infinite at x = -0.1 mm"),
+        (lc.Contact(FLAT, lc.Wedge((-0.1, 0.1), 9.0), contact_modulus=1.0), 0.3, "infinite at x = 0 mm"),
+        (lc.Contact(FLAT, BODY, kappa=1.0, edges=adhesive), 0.02, "infinite at x = -0.244497, 0.244497 mm"),
+    ]
+    for contact, load, says in scenes:
+        solution = contact.solve(load=load)
+        _, pressure, _, bar = solution.plot(("mm", "MPa")).axes
+        low, high = pressure.get_ylim()
+        assert bar.get_ylim()[1] < 3.0 * solution.mean_pressure
+        assert 1.5 * solution.mean_pressure < high < 4.0 * solution.mean_pressure
+        assert -high <= low <= 0.0
+        assert [text.get_text() for text in pressure.texts] == [says]
+    slip = scenes[0][0].partial_slip(friction=2.0, force=-300.0, load=250.0)
+    low, high = slip.plot(("mm", "MPa")).axes[1].get_ylim()
+    assert 6.0 * 125.0 < high < 7.0 * 125.0 and -7.0 * 125.0 < low < -6.0 * 125.0
+    assert not lc.solve(FLAT, BODY, kappa=1.0, load=0.01).plot().axes[1].texts
+
+
 def test_measured_points_are_drawn() -> None:
     x = np.linspace(-1.0, 1.0, 201)
     spline = lc.Spline(np.column_stack([x, -(x**2) / 2]), smooth=True)

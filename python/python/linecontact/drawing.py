@@ -8,12 +8,14 @@ import numpy as np
 
 from .below import bodies as bodies_below
 from .bodies import Placed, Spline
+from .errors import SingularError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import Any
 
     from matplotlib.axes import Axes
+    from matplotlib.contour import ContourSet
     from matplotlib.figure import Figure
 
     from ._numbers import FloatArray
@@ -27,6 +29,13 @@ if TYPE_CHECKING:
 # half-widths.
 BESIDE = 0.5
 _DEPTH = 2.0
+
+# Ends of the scales where pressure or shear is infinite: this number of mean pressures, and the
+# largest shear from this depth on, in half-widths.
+_MEANS, SHALLOW = 3.0, 0.1
+
+# Largest strength of a singularity that counts as zero, in mean pressures: rounding.
+_ROUNDING = 1e-12
 
 # Number of x at which the shear is drawn, over the whole picture, and again below the contacts.
 _COLUMNS = 48
@@ -86,10 +95,37 @@ def before_loading(
     return lower, upper - touching if np.isfinite(touching) else upper
 
 
+def is_infinite(solution: Solution, strength: float) -> bool:
+    """Tells whether the strength of a singularity is more than rounding."""
+    return abs(strength) > _ROUNDING * abs(solution.mean_pressure)
+
+
+def highest(solution: Solution) -> float:
+    """Returns the largest pressure to be shown: a few mean pressures, if it is infinite."""
+    try:
+        return solution.peak().pressure
+    except SingularError:
+        return _MEANS * abs(solution.mean_pressure)
+
+
+def _infinite_at(solution: Solution) -> list[float]:
+    """Returns limits of infinite pressure or tension, and the place of the largest pressure if it is infinite."""
+    limits = zip(solution.hull, solution.edge_singularities, strict=True)
+    found = [x for x, strength in limits if is_infinite(solution, strength)]
+    try:
+        solution.peak()
+    except SingularError as infinite:
+        found.append(infinite.x)
+    return sorted(set(found))
+
+
 def _draw_traction(axes: Axes, slip: PartialSlip) -> float:
     """Draws the traction, and the largest that friction allows; returns the lowest."""
     x, tractions = slip.sample(257)
     limit = np.copysign(slip.friction, slip.force) * slip.normal.pressure(x)
+    if _infinite_at(slip.normal):
+        shown = np.abs(limit) <= max(1.0, slip.friction) * highest(slip.normal)
+        x, tractions, limit = x[shown], tractions[shown], limit[shown]
     for number, on in enumerate(slip.normal.intervals):
         inside = (x >= on.left) & (x <= on.right)
         names = ("limit of friction", "traction on lower body") if number == 0 else (None, None)
@@ -211,6 +247,28 @@ def covered(solution: Solution) -> tuple[float, float]:
     return max(left, other_left), min(right, other_right)
 
 
+def _scale(axes: Axes, solution: Solution, lowest: float, slip: PartialSlip | None, length: str) -> None:
+    """Scales the axis of pressure, cut where the pressure is infinite, which it then says."""
+    axes.set_ylim(bottom=lowest)
+    if places := _infinite_at(solution):
+        top = 1.05 * highest(solution) * max(1.0, slip.friction if slip else 1.0)
+        axes.set_ylim(max(lowest, -top), top)
+        words = f"infinite at x = {', '.join(f'{x:.6g}' for x in places)} {length}".rstrip()
+        # Below the axes, where no line goes through it.
+        axes.text(1.0, -0.05, words, transform=axes.transAxes, ha="right", va="top", fontsize="small")
+
+
+def _draw_shear(axes: Axes, x: FloatArray, depth: FloatArray, shear: FloatArray, solution: Solution) -> ContourSet:
+    """Draws the shear on a grid; what is larger only next to a place of infinite pressure has one colour."""
+    from matplotlib.ticker import MaxNLocator
+
+    deep = shear
+    if _infinite_at(solution):
+        deep = shear[depth >= min(SHALLOW * solution.half_width, depth[-1])]
+    levels = MaxNLocator(13).tick_values(0.0, float(np.max(deep)))
+    return axes.contourf(x, depth, shear, levels=levels, cmap="cividis", extend="neither" if deep is shear else "max")
+
+
 def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = None) -> Figure:
     """Draws bodies, pressure and subsurface shear, one below the other over the same x.
 
@@ -244,7 +302,7 @@ def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = No
         name = "pressure" if number == 0 else None
         pressure.plot(places[inside], values[inside], color="#08519c", label=name)
     lowest = 0.0 if slip is None else 1.05 * _draw_traction(pressure, slip)
-    pressure.set_ylim(bottom=min(lowest, float(np.min(values, initial=0.0))))
+    _scale(pressure, solution, min(lowest, float(np.min(values, initial=0.0))), slip, units[0])
     pressure.set_ylabel(f"pressure{pressures}" if slip is None else f"pressure, traction{pressures}")
 
     # The depths start below the surface, where the pressure may be infinite. The places are denser
@@ -258,7 +316,7 @@ def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = No
         depth = np.geomspace(min(0.02 * narrowest, 0.1 * deepest), min(_DEPTH * on.half_width, deepest), 48)
         grid = across[None, :], np.minimum(depth, deepest)[:, None]
         stress = solution.stress(*grid, body=body) if slip is None else slip.stress("lower", *grid)
-        drawn = below.contourf(across, depth, stress.max_shear(), levels=12, cmap="cividis")
+        drawn = _draw_shear(below, across, depth, stress.max_shear(), solution)
         shear = f"largest shear in {body} body" if body else "largest shear"
         figure.colorbar(drawn, ax=below, label=f"{shear}{pressures}")
         below.invert_yaxis()

@@ -20,7 +20,7 @@ from ._numbers import FloatArray, Numbers, Range, as_numbers, one_of
 from .below import bodies, materials
 from .bodies import Body
 from .contact import Contact, Material, contact_modulus
-from .drawing import BESIDE, before_loading, covered, heights, period
+from .drawing import BESIDE, SHALLOW, before_loading, covered, heights, highest, is_infinite, period
 from .errors import LineContactError, SingularError
 from .slipping import PartialSlip, Side, acting, slipped_again
 from .solution import Solution
@@ -36,13 +36,10 @@ _COLUMNS, _MOST_COLUMNS, _ROWS = 64, 192, 40
 # Number of steps in which the shear is stored, from zero to its largest value: finer than a screen
 # shows.
 _STEPS = 65535
-# Ends of the scales where shear or pressure is infinite: the largest shear from this depth on, in
-# half-widths, and this number of mean pressures.
-_SHALLOW, _MEANS = 0.1, 3.0
 # Depth of the row that stands for the surface under a traction, in half-widths: on the surface
 # itself stress may be infinite at a tip.
 _SURFACE = 1e-9
-# Largest strength of a singularity in mean pressures, and length in periods, that count as zero: rounding.
+# Largest length that counts as zero, in periods: rounding.
 _ROUNDING = 1e-12
 # Largest number of characters of the description of a body.
 _WORDS = 400
@@ -267,7 +264,7 @@ def _curves(solution: Solution, slip: PartialSlip | None, window: Range) -> dict
     ends = given_way[np.isfinite(given_way)][[0, -1]]
     drawn = pressures[np.isfinite(pressures)]
     peak = _peak(solution)["pressure"]
-    top = _MEANS * abs(solution.mean_pressure) if peak is None else peak
+    top = highest(solution)
     least, along = float(np.min(drawn, initial=0.0)), {}
     if slip is not None:
         # Where the pressure is infinite, the traction may be: it is left out there.
@@ -305,17 +302,12 @@ def _left_out(solution: Solution, sampled: FloatArray) -> list[tuple[float, floa
     found = []
     for x, strength in zip(solution.hull, solution.edge_singularities, strict=True):
         if x not in sampled:
-            pressure = math.copysign(math.inf, strength) if _is_infinite(solution, strength) else 0.0
+            pressure = math.copysign(math.inf, strength) if is_infinite(solution, strength) else 0.0
             found.append((x, pressure))
     peak = _peak(solution)
     if peak["x"] not in (*sampled, *solution.hull):
         found.append((peak["x"], math.inf if peak["pressure"] is None else peak["pressure"]))
     return found
-
-
-def _is_infinite(solution: Solution, strength: float) -> bool:
-    """Tells whether the strength of a singularity is more than rounding."""
-    return abs(strength) > _ROUNDING * abs(solution.mean_pressure)
 
 
 def _beside(solution: Solution, window: Range) -> FloatArray:
@@ -324,7 +316,7 @@ def _beside(solution: Solution, window: Range) -> FloatArray:
     Places beyond a corner that is pressed, where one of the bodies ends, are left out.
     """
     pressed = [
-        strength > 0.0 and _is_infinite(solution, strength)
+        strength > 0.0 and is_infinite(solution, strength)
         for strength in solution.edge_singularities
     ]
     limits = np.ravel(np.add.outer(_shifts(solution, window), np.ravel(solution.intervals)))
@@ -391,7 +383,7 @@ def _field(
         top = largest["value"]
     except SingularError as infinite:
         largest = {"x": infinite.x, "depth": 0.0, "value": None}
-        top = float(np.max(shear[depth >= _SHALLOW * solution.half_width]))
+        top = float(np.max(shear[depth >= SHALLOW * solution.half_width]))
     unit = float(np.max(shear)) / _STEPS
     field = {
         "x": _packed(x),
