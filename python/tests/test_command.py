@@ -168,10 +168,21 @@ def test_largest_stresses_are_those_of_the_material_that_has_them(run: Run, tmp_
         shear = solution.max_shear(body=body, depths=depths)
         mises = solution.max_von_mises(ratio, body=body, depths=depths)
         found[words] = shear.value, mises.value
-    code, text, _ = run(scene, "--csv", file)
+    code, text, _ = run(scene, "--csv", file, "--yield-stress", "600")
     assert code == 0
     with file.open(newline="") as of:
         [row] = csv.DictReader(of)
+    # Each material has a line, and its safety.
+    blocks = {lines[0][:26].strip(): lines for lines in (block.split("\n") for block in re.split(r"\n(?! )", text))}
+    for words, values in found.items():
+        for label, value in (
+            ("largest shear in plane", values[0]),
+            ("largest von Mises stress", values[1]),
+            ("safety by von Mises", 600 / values[1]),
+        ):
+            [line] = [one for one in blocks[label] if one.endswith(f", {words}") or one.startswith(f"  in {words} ")]
+            assert math.isclose(float(line[26:].split()[0]), value, rel_tol=5e-3 if "safety" in label else 1e-5)
+        assert len(blocks["safety by Tresca"]) == len(found)
     for i, (name, label) in enumerate([("max_shear", "largest shear in plane"), ("von_mises", "largest von Mises stress")]):
         words = max(found, key=lambda words: found[words][i])
         assert row[f"{name}_in"] == words and math.isclose(float(row[f"{name} [MPa]"]), found[words][i], rel_tol=1e-14)

@@ -64,25 +64,30 @@ _EXACT = 1e-12
 class Row(NamedTuple):
     """A control with its solution and numbers, or with its error.
 
-    `places` are the materials of the largest stresses, if a body has a layer; `missing` is what is not known of layers.
+    `each` are the largest stresses of each material, if a body has a layer; `missing` is what is not known of layers.
     """
 
     control: Mapping[str, Any]
     solution: Solution | None
     numbers: dict[str, float]
-    places: Mapping[str, str]
+    each: Mapping[str, Mapping[str, StressPeak]]
     missing: Sequence[str]
     error: LineContactError | None
+
+    @property
+    def places(self) -> dict[str, str]:
+        """Materials of the largest stresses, if a body has a layer."""
+        return {name: _most(of) for name, of in self.each.items()}
 
 
 def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None) -> Row:
     """Solves a contact, and returns its numbers: NaN if they are not known, infinite at corners."""
-    numbers, missing, places = dict.fromkeys(NUMBERS, math.nan), dict[str, None](), dict[str, str]()
+    numbers, missing, each = dict.fromkeys(NUMBERS, math.nan), dict[str, None](), dict[str, dict[str, StressPeak]]()
     below = materials(scene.contact)
     try:
         solution = scene.contact.solve(**control)
     except LineContactError as error:
-        return Row(control, None, numbers, places, (), error)
+        return Row(control, None, numbers, each, (), error)
 
     def note(of: Callable[[], Iterable[float]], *names: str) -> None:
         try:
@@ -112,13 +117,16 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
 
     def largest(name: str, of: Callable[[Below], StressPeak]) -> None:
         def found() -> StressPeak:
-            peaks = list[tuple[StressPeak, str]]()
-            for one in below:
-                # Where the stress is infinite, it is so in this material.
-                places[name] = one.words
-                peaks.append((of(one), one.words))
-            peak, places[name] = max(peaks, key=lambda pair: pair[0].value)
-            return peak
+            peaks = {one.words: finite(one) for one in below}
+            if peaks.keys() != {""}:
+                each[name] = peaks
+            return peaks[_most(peaks)]
+
+        def finite(one: Below) -> StressPeak:
+            try:
+                return of(one)
+            except SingularError as error:
+                return StressPeak(error.x, 0.0, math.inf)
 
         note(found, f"{name}_x", f"{name}_depth", name)
 
@@ -131,13 +139,19 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
         note(lambda: [solution.stiffness(to)], "stiffness")
     if yield_stress is not None:
         for of in ("von_mises", "tresca"):
-            numbers[f"safety_{of}"] = yield_stress / numbers[of] if numbers[of] != 0.0 else math.inf
+            numbers[f"safety_{of}"] = _safety(yield_stress, numbers[of])
     # Of bodies that are apart, places are known to the rounding of their x.
     least = _EXACT * float(np.ptp(covered(solution))) if solution.is_apart else _ROUNDING * solution.half_width
     for name in ("left", "right", "centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
         numbers[name] = 0.0 if abs(numbers[name]) < least else numbers[name]
-    named = {name: words for name, words in places.items() if words}
-    return Row(control, solution, numbers, named, tuple(missing), None)
+    for peaks in each.values():
+        peaks.update({words: peak._replace(x=0.0) for words, peak in peaks.items() if abs(peak.x) < least})
+    return Row(control, solution, numbers, each, tuple(missing), None)
+
+
+def _most(peaks: Mapping[str, StressPeak]) -> str:
+    """Returns the material of the largest stress."""
+    return max(peaks, key=lambda words: peaks[words].value)
 
 
 def largest_tresca(solution: Solution, of: Below) -> StressPeak:
@@ -181,6 +195,24 @@ def _elastic(of: Any, unit: str) -> str:
     return elastic if math.isfinite(modulus) else "rigid"
 
 
+def _safety(yield_stress: float | None, stress: float) -> float:
+    """Returns the safety against yield, infinite without stress."""
+    return (yield_stress or math.nan) / stress if stress != 0.0 else math.inf
+
+
+def _place(x: float, depth: float, unit: str) -> str:
+    """Returns x and depth in words, as far as they are known."""
+    named = (("at x = ", x), (", depth ", depth))
+    return "".join(f"{name}{value:.4g} {unit}".rstrip() for name, value in named if not math.isnan(value))
+
+
+def _number(label: str, number: float, kind: str, units: Mapping[str, str], note: str) -> str:
+    """Returns the line of a number."""
+    text = f"{number:.6g}" if kind else f"{number:.3g}"
+    whole, point, digits = text.partition(".")
+    return _line(label, f"{whole:>8}{point + digits:<11}{units[kind]:<8}{note}")
+
+
 def sheet(scene: Scene, row: Row, yield_stress: float | None) -> str:
     """Returns the result sheet of one solution."""
     contact, numbers = scene.contact, row.numbers
@@ -197,14 +229,18 @@ def sheet(scene: Scene, row: Row, yield_stress: float | None) -> str:
     lines += [_line("prescribed", described(row.control)), ""]
     for name, (kind, label) in NUMBERS.items():
         if label and not math.isnan(numbers[name]):
-            x, depth = (numbers.get(f"{name.removesuffix('_pressure')}_{of}", math.nan) for of in ("x", "depth"))
-            note = f"against yield at {yield_stress:g} {pressure}" if name.startswith("safety") else ""
-            note += "" if math.isnan(x) else f"at x = {x:.4g} {units['length']}".rstrip()
-            note += "" if math.isnan(depth) else f", depth {depth:.4g} {units['length']}".rstrip()
-            note += f", {row.places[name]}" if name in row.places else ""
-            text = f"{numbers[name]:.6g}" if kind else f"{numbers[name]:.3g}"
-            whole, point, digits = text.partition(".")
-            lines.append(_line(label, f"{whole:>8}{point + digits:<11}{units[kind]:<8}{note}"))
+            of = name.removeprefix("safety_")
+            note = f"against yield at {yield_stress:g} {pressure}" if of != name else ""
+            words = row.places.get(of, "")
+            x, depth = (numbers.get(f"{name.removesuffix('_pressure')}_{at}", math.nan) for at in ("x", "depth"))
+            note += _place(x, depth, units["length"]) + (f", {words}" if words else "")
+            lines.append(_number(label, numbers[name], kind, units, note))
+            # Each material has a limit of its own.
+            for other in [other for other in row.each.get(of, ()) if other != words]:
+                peak = row.each[of][other]
+                value = peak.value if of == name else _safety(yield_stress, peak.value)
+                note = _place(peak.x, peak.depth, units["length"]) if of == name else ""
+                lines.append(_number(f"  in {other}", value, kind, units, note))
     return "\n".join([*lines[0 if scene.title else 2 :], "", *_notes(row, units)])
 
 
