@@ -140,15 +140,14 @@ impl<T: Real> SpringTable<T> {
     /// Computes the table over a range of loads per unit length, from the least to the largest.
     ///
     /// The tolerance is a share of the load, the half-width and the peak, whichever is worst; of
-    /// smooth bodies 1e-14 is reached. Between points as close as a millionth of the load, as next
-    /// to a load under which a corner is reached, it may not be met: [`error`](Self::error) returns
-    /// the error found.
+    /// smooth bodies 1e-14 is reached. Points stand apart by a millionth of the load or more, which
+    /// limits what is reached next to a load under which the contact meets a corner.
     ///
     /// # Errors
     /// [`InputError::InvalidLoad`] for a range that is not positive and rising;
     /// [`InputError::InvalidTolerance`] for a tolerance that is not above 0 and below 1;
-    /// [`ToleranceNotReached`](crate::SolveError::ToleranceNotReached) for one that 4096 points do
-    /// not reach, with the error that they leave; the errors of [`Contact::solve`],
+    /// [`ToleranceNotReached`](crate::SolveError::ToleranceNotReached) for one that 4096 points, or
+    /// such close ones, do not reach, with the error that they leave; the errors of [`Contact::solve`],
     /// [`Solution::approach`], [`Solution::stiffness`] and [`Solution::peak`];
     /// [`SolveError::Falls`](crate::SolveError::Falls).
     pub fn new(
@@ -185,10 +184,9 @@ impl<T: Real> SpringTable<T> {
             };
             touch_error = touch_error.max(T::of(SAFETY_FACTOR) * off);
         }
-        let points = vec![first, last];
+        let (points, mut pending) = (vec![first, last], VecDeque::from([[first, last]]));
         let mut table = Self { points, error: zero, stiffness_error: zero, touch_error };
         // Halves wait until all wider intervals are tested: what the table has of points is spread.
-        let mut pending = VecDeque::from([[first, last]]);
         while let Some([from, to]) = pending.pop_front() {
             let ratio = to.point.load / from.point.load;
             let place = |share: f64| from.point.load * ratio.powf(T::of(share));
@@ -209,7 +207,7 @@ impl<T: Real> SpringTable<T> {
             table.error = table.error.max(error);
             table.stiffness_error = table.stiffness_error.max(stiffness_error);
         }
-        if table.error > tolerance && table.points.len() >= MAX_TABLE {
+        if table.error > tolerance {
             let reached = table.error;
             return Err(crate::SolveError::ToleranceNotReached { tolerance, reached }.into());
         }

@@ -219,6 +219,11 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         "ToleranceNotReachedError",
         {"tolerance": 1e-17},
     ),
+    (
+        lambda: lc.SpringTable(material(), TO, (1.0, 10.0), 1e-15),
+        "ToleranceNotReachedError",
+        {"tolerance": 1e-15},
+    ),
     (lambda: contact().solve(load=-1.0), "InvalidLoadError", {"quantity": "load", "value": -1.0}),
     (
         lambda: contact().solve(half_width=0.0),

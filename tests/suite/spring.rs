@@ -53,7 +53,15 @@ fn between_its_points_a_table_is_as_good_as_it_says() {
     ] {
         let contact = steel(Contact::new(&Flat, &**body).unwrap().edges(left, right));
         for tolerance in [1e-2, 1e-4, 1e-6] {
-            let table = SpringTable::new(&contact, &REFERENCES, loads, tolerance).unwrap();
+            let make = |tolerance| SpringTable::new(&contact, &REFERENCES, loads, tolerance);
+            let (table, tolerance) = match make(tolerance) {
+                // Points next to a kink are not drawn together any further: what is left is named.
+                Err(ContactError::Solve(SolveError::ToleranceNotReached { reached, .. })) => {
+                    assert!(name == "two become one" && reached > tolerance, "{name}");
+                    (make(reached).unwrap(), reached)
+                }
+                table => (table.unwrap(), tolerance),
+            };
             let [values, stiffness] = errors(&contact, &table, loads);
             println!(
                 "{name} {tolerance:.0e}: {} points, {values:.1e} of {:.1e}, {stiffness:.1e} of {:.1e}",
@@ -63,9 +71,7 @@ fn between_its_points_a_table_is_as_good_as_it_says() {
             );
             assert!(values <= table.error() + 1e-13, "{name}");
             assert!(stiffness <= table.stiffness_error() + 1e-13, "{name}");
-            if name != "two become one" && name != "until a corner" {
-                assert!(table.error() <= tolerance, "{name}");
-            }
+            assert!(table.error() <= tolerance, "{name}");
         }
     }
 }
@@ -107,6 +113,11 @@ fn what_makes_no_table_is_refused() {
         panic!("a tolerance below rounding")
     };
     assert!(reached > 1e-17 && reached < 1e-12, "{reached:e}");
+    // Next to what is reached, too.
+    for tolerance in [5e-16, 1e-15, 2e-15, 5e-15] {
+        let error = table([0.01, 0.1], tolerance).map_or(0.0, |table| table.error());
+        assert!(error <= tolerance, "{error:e} of {tolerance:e}");
+    }
     assert!(table([0.01, 0.1], reached).unwrap().error() <= reached);
     assert!(table([0.01, 0.1], 1e-14).unwrap().error() <= 1e-14);
     assert!(matches!(

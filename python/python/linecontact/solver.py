@@ -136,8 +136,8 @@ class SpringTable:
         Least and largest load: force/length.
     tolerance : float
         Largest error of load, half-width and peak between the points, as a share. What it cannot
-        reach is a `ToleranceNotReachedError`, with the error that is left as `reached`; only between
-        points that a corner draws together is it passed without one: see `error`.
+        reach is a `ToleranceNotReachedError`, with the error that is left as `reached`: a tolerance
+        that can be reached.
 
     Examples
     --------
