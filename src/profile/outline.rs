@@ -164,7 +164,8 @@ impl<T: Real> Outline<T> {
     /// Returns the pieces of the body, from left to right.
     ///
     /// # Errors
-    /// [`PiecewiseError::InSegment`], with the number of the line or arc, as drawn, from 1.
+    /// [`PiecewiseError::InSegment`], with the number of the line or arc, as drawn, from 1: of that
+    /// which is missing, where a corner, a fillet or a chamfer is the last.
     pub fn segments(&self) -> Result<Vec<Segment<T>>, PiecewiseError<T>> {
         let mut found = Vec::<Segment<T>>::with_capacity(2 * self.drawn.len());
         let mut end = (self.start, T::zero());
@@ -179,6 +180,12 @@ impl<T: Real> Outline<T> {
             }
             found.push(segment);
         }
+        let corner = self.next.0.map(|slope| ("the slope after the corner", slope));
+        if let Some((name, value)) = self.next.1.map(Finish::named).or(corner) {
+            let source =
+                ProfileError::Parameter { name, value, must: "in front of a line or an arc" };
+            return Err(PiecewiseError::InSegment { segment: self.drawn.len() + 1, source });
+        }
         let Some(left) = &self.left else { return Ok(found) };
         let left = left.segments()?;
         let mirrored = left.iter().rev().map(|segment| segment.mirrored(self.start[0]));
@@ -187,12 +194,17 @@ impl<T: Real> Outline<T> {
 }
 
 impl<T: Real> Finish<T> {
-    /// Returns the error of a corner that cannot be finished so.
-    fn fault(self) -> ProfileError<T> {
-        let (name, value) = match self {
+    /// Returns its name and its size.
+    fn named(self) -> (&'static str, T) {
+        match self {
             Self::Round(radius) => ("the radius of the fillet in front of it", radius),
             Self::Cut([one, other]) => ("a length of the chamfer in front of it", one.max(other)),
-        };
+        }
+    }
+
+    /// Returns the error of a corner that cannot be finished so.
+    fn fault(self) -> ProfileError<T> {
+        let (name, value) = self.named();
         let must = "positive, at a corner, and leave a part of the segments on either side";
         ProfileError::Parameter { name, value, must }
     }

@@ -181,7 +181,7 @@ fn the_contact_of_an_outline_is_proved_and_that_of_its_shape() {
 #[test]
 fn what_cannot_be_drawn_is_named_by_its_segment() {
     let start = || Outline::from([0.0, 0.0]);
-    let cases: [(Outline<f64>, usize, &str, f64); 14] = [
+    let cases: [(Outline<f64>, usize, &str, f64); 18] = [
         (start().line(0.0), 1, "the length along x", 0.0),
         (start().line(1.0).line(f64::NAN), 2, "the length along x", f64::NAN),
         (start().line(1.0).arc(0.0, 1.0), 2, "the radius", 0.0),
@@ -227,6 +227,16 @@ fn what_cannot_be_drawn_is_named_by_its_segment() {
             0.5,
         ),
         (start().chamfer(0.5, 0.5).line(1.0), 1, "a length of the chamfer in front of it", 0.5),
+        // Nothing is drawn behind these.
+        (start().line(1.0).fillet(0.1), 2, "the radius of the fillet in front of it", 0.1),
+        (start().line(1.0).corner(0.5), 2, "the slope after the corner", 0.5),
+        (
+            start().line(1.0).corner(1.0).chamfer(0.1, 0.2),
+            2,
+            "a length of the chamfer in front of it",
+            0.2,
+        ),
+        (start().corner(0.5), 1, "the slope after the corner", 0.5),
     ];
     for (outline, at, called, given) in cases {
         for halved in [outline.clone(), start().line(1.0).left(outline)] {
