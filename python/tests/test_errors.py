@@ -465,7 +465,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (
         lambda: layered(1.0).solve(load=100.0).max_tension(),
         "HalfPlanesOnlyError",
-        {"quantity": "the stress below the surface of both bodies at once"},
+        {"quantity": "the stress of both bodies at once (name the lower or upper one)"},
     ),
     (
         lambda: layered(1.0).solve(load=100.0).stress(0.0, 1.5, body="upper"),

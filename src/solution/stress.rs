@@ -258,7 +258,7 @@ impl<T: Real> Solution<'_, T> {
         let quantity = match body {
             Some(body) if is_known => return Ok(layers[body as usize]),
             None if is_known && layers.iter().all(Option::is_none) => return Ok(None),
-            None if is_known => "the stress below the surface of both bodies at once",
+            None if is_known => "the stress of both bodies at once (name the lower or upper one)",
             _ => "the stress below the surface (but that of layers)",
         };
         Err(EvaluationError::HalfPlanesOnly { quantity }.into())

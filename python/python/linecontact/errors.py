@@ -36,6 +36,8 @@ _IN_PYTHON = {
     "Edge::FreeUntil": "Edge.free_until",
     "Material::Rigid": "Material.rigid()",
     "by Contact::materials": "by materials=(lower, upper)",
+    "name the lower or upper one": "give body='lower' or body='upper'",
+    "is not Free": "is not free",
     "Convexity::Unknown": 'the convexity "unknown"',
     "Placement::flipped": "Body.flipped",
     "use Piecewise::placed": "place its parts one by one",
