@@ -147,8 +147,8 @@ pub enum InputError<T: Real> {
         /// Largest ratio that is solved.
         limit: T,
     },
-    /// Layers and other kernels cannot be combined with another setting.
-    #[error("a layer, or another kernel, cannot be solved: {why}")]
+    /// Layers, periods and other kernels cannot be combined with another setting.
+    #[error("bodies with a layer, a period or another kernel are not solved so: {why}")]
     KernelNotSupported {
         /// Reason, for the message.
         why: &'static str,

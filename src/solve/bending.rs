@@ -75,7 +75,7 @@ pub(super) fn kernel<'b, T: Real>(
         return refuse("the bodies have a period, and the kernel is by a formula");
     }
     if contact.edges != Ends::both(Edge::Free) {
-        return refuse("the bodies have a period, and an edge is not Free");
+        return refuse("edges of bodies with a period are free, and one here is not Free");
     }
     if matches!(control, Control::Moment { .. } | Control::CentreOfPressure { .. }) {
         return refuse("the bodies have a period, and a moment would turn them");

@@ -356,7 +356,7 @@ class LayerTooThinError(InputError):
 
 
 class KernelNotSupportedError(InputError):
-    """Layers and other kernels cannot be combined with another setting.
+    """Layers, periods and other kernels cannot be combined with another setting.
 
     Attributes
     ----------
