@@ -174,7 +174,7 @@ impl<T: Real> Elasticity<T> {
         if !(modulus.is_finite() && modulus > zero && compliance.is_finite()) {
             return Err(InputError::InvalidYoungsModulus { body, modulus }.into());
         }
-        checked_ratio(ratio)?;
+        checked_ratio(ratio, Some(body))?;
         let [compliance, ratio] = match state {
             PlaneState::Strain => [(one - ratio) * (one + ratio) * compliance, ratio],
             PlaneState::Stress => [compliance, ratio / (one + ratio)],
@@ -184,7 +184,7 @@ impl<T: Real> Elasticity<T> {
 }
 
 /// Refuses a number that cannot be a Poisson's ratio.
-pub(crate) fn checked_ratio<T: Real>(ratio: T) -> Result<T, ContactError<T>> {
+pub(crate) fn checked_ratio<T: Real>(ratio: T, body: Option<Body>) -> Result<T, ContactError<T>> {
     let is_valid = ratio >= T::zero() && ratio <= T::of(0.5);
-    if is_valid { Ok(ratio) } else { Err(InputError::InvalidPoissonRatio { ratio }.into()) }
+    if is_valid { Ok(ratio) } else { Err(InputError::InvalidPoissonRatio { body, ratio }.into()) }
 }

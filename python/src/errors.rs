@@ -82,6 +82,12 @@ impl Named for Body {
     }
 }
 
+impl Named for Option<Body> {
+    fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.map_or(Ok(py.None()), |body| body.named(py))
+    }
+}
+
 impl<T: Named> Named for Edge<T> {
     fn named(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         match self {
@@ -160,7 +166,7 @@ table! {
     InvalidMoment { value };
     TiltNotSupported { why };
     PeakEdge { edge };
-    InvalidPoissonRatio { ratio };
+    InvalidPoissonRatio { body, ratio };
     InvalidYoungsModulus { body, modulus };
     BothRigid {};
     NoMaterials {};

@@ -1,7 +1,7 @@
 //! Remedies in the texts of errors.
 
-use crate::Real;
 use crate::rounded::{Rounded, apart, six, span};
+use crate::{Body, Real};
 
 /// Tells whether a number is so small that it has fewer digits than others.
 pub(crate) fn is_subnormal<T: Real>(value: T) -> bool {
@@ -40,6 +40,11 @@ pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, pea
 /// Returns the remedy for an approach that a table does not cover.
 pub(super) fn how_to_cover<T: Real>(approach: T, remedy: &'static str) -> &'static str {
     if approach.is_finite() { remedy } else { "it must be finite" }
+}
+
+/// Names the body that a message is about, if it is one of a contact.
+pub(super) fn of_body(body: Option<Body>) -> String {
+    body.map_or_else(String::new, |body| format!("{body} body: "))
 }
 
 /// Names the span between two places, or their common place.

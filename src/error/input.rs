@@ -1,7 +1,7 @@
 //! Errors of the input.
 
 use super::ReferenceError;
-use super::advice::{along, lost_digits};
+use super::advice::{along, lost_digits, of_body};
 use crate::profile::SplineError;
 use crate::rounded::{apart, six, span};
 use crate::{Body, ContactError, Edge, Interval, PiecewiseError, ProfileError, Real};
@@ -266,16 +266,16 @@ pub enum InputError<T: Real> {
         edge: Edge<T>,
     },
     /// Poisson's ratio is not one of an isotropic body that contracts when pulled.
-    #[error("Poisson's ratio is {}: it must be from 0 to 1/2, as 0.3 of steel", six(*ratio))]
+    #[error("{}Poisson's ratio is {}: it must be from 0 to 1/2, as 0.3 of steel", of_body(*body), six(*ratio))]
     InvalidPoissonRatio {
+        /// Body with this ratio; `None` of one that was given for a stress.
+        body: Option<Body>,
         /// Poisson's ratio as given.
         ratio: T,
     },
     /// Young's modulus is not a positive finite number.
-    #[error(
-        "{body} body: Young's modulus is {modulus}: it must be positive and finite (or Material::Rigid)",
-        modulus = six(*modulus)
-    )]
+    #[error("{body} body: Young's modulus is {}: it must be positive and finite (or Material::Rigid)",
+        six(*modulus))]
     InvalidYoungsModulus {
         /// Body with this modulus.
         body: Body,
@@ -337,10 +337,7 @@ pub enum InputError<T: Real> {
         coefficient: T,
     },
     /// The coefficient of friction of partial slip is not a positive finite number.
-    #[error(
-        "the coefficient of friction is {friction}: for partial slip it must be positive and finite",
-        friction = six(*friction)
-    )]
+    #[error("the coefficient of friction is {}: for partial slip it must be positive and finite", six(*friction))]
     InvalidSlipFriction {
         /// μ as given.
         friction: T,

@@ -120,7 +120,7 @@ impl<T: Real> Stress<T> {
     /// # Errors
     /// [`InputError::InvalidPoissonRatio`] for ν outside [0, 1/2], or NaN.
     pub fn sigma_z(&self, poisson: T) -> Result<T, ContactError<T>> {
-        Ok(checked_ratio(poisson)? * (self.sigma_x + self.sigma_y))
+        Ok(checked_ratio(poisson, None)? * (self.sigma_x + self.sigma_y))
     }
 
     /// Returns the von Mises equivalent stress in plane strain,
@@ -133,7 +133,7 @@ impl<T: Real> Stress<T> {
     /// [`InputError::InvalidPoissonRatio`] for ν outside [0, 1/2], or NaN.
     pub fn von_mises(&self, poisson: T) -> Result<T, ContactError<T>> {
         // The formula above, written as a sum of squares.
-        let share = T::of(0.5) - checked_ratio(poisson)?;
+        let share = T::of(0.5) - checked_ratio(poisson, None)?;
         let sum = self.sigma_x + self.sigma_y;
         Ok((share * sum).hypot(T::of(3.0).sqrt() * self.max_shear()))
     }

@@ -432,6 +432,7 @@ fn what_cannot_be_answered_is_refused() {
             matches!(error, ContactError::Input(InputError::InvalidPoissonRatio { .. })),
             "{error}"
         );
+        assert!(error.to_string().starts_with("lower body: Poisson's ratio is "), "{error}");
     }
     let contact = with(STEEL, STEEL);
     for approach in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

@@ -413,7 +413,17 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["β = 0.25", "like bodies"],
         ),
         (ContactError::Input(InputError::SlipNotSupported { why: "so it is" }), &["so it is"]),
-        (ContactError::Input(InputError::InvalidPoissonRatio { ratio: 1.5 }), &["0 to 1/2", "0.3"]),
+        (
+            ContactError::Input(InputError::InvalidPoissonRatio { body: None, ratio: 1.5 }),
+            &["Poisson's ratio is 1.5: ", "0 to 1/2", "0.3"],
+        ),
+        (
+            ContactError::Input(InputError::InvalidPoissonRatio {
+                body: Some(Body::Upper),
+                ratio: 1.5,
+            }),
+            &["upper body: Poisson's ratio is 1.5: "],
+        ),
         (
             ContactError::Input(InputError::InvalidFriction { coefficient: f64::NAN }),
             &["NaN", "finite"],

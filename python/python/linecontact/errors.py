@@ -526,10 +526,13 @@ class InvalidPoissonRatioError(InputError):
 
     Attributes
     ----------
+    body : str | None
+        Body with this ratio; `None` of one that was given for a stress.
     ratio : float
         Poisson's ratio as given.
     """
 
+    body: str | None
     ratio: float
 
 

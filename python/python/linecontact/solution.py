@@ -332,7 +332,7 @@ def _ratio(given: float) -> float:
     ratio = as_number(given, "poisson_ratio")
     if not 0.0 <= ratio <= 0.5:
         says = f"Poisson's ratio is {ratio}: it must be from 0 to 1/2, as 0.3 of steel"
-        raise refusal("InvalidPoissonRatioError", says, ratio=ratio)
+        raise refusal("InvalidPoissonRatioError", says, body=None, ratio=ratio)
     return ratio
 
 

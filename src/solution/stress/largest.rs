@@ -66,7 +66,7 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     pub(crate) fn largest_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
-        let poisson = checked_ratio(poisson)?;
+        let poisson = checked_ratio(poisson, None)?;
         self.check_surface(poisson != T::of(0.5))?;
         self.largest(|stress| stress.von_mises(poisson))
     }

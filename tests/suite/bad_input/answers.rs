@@ -151,7 +151,7 @@ fn what_is_asked_of_a_solution() {
     let stress = Stress { sigma_x: -1.0, sigma_y: -2.0, tau_xy: 0.5 };
     for poisson in [NAN, INF, -INF, -TINY, -0.1, 0.5f64.next_up(), 1.0] {
         let is_it = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Input(InputError::InvalidPoissonRatio { ratio })
+            matches!(wrong, Wrong::Input(InputError::InvalidPoissonRatio { body: None, ratio })
                 if same(*ratio, poisson))
         };
         table.row(&format!("σ_z with ν = {poisson}"), 0, || Ok(stress.sigma_z(poisson)?), is_it);
