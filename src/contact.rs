@@ -466,26 +466,29 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// Returns the ends of the bodies as they are in a gap.
     pub(crate) fn ends_of(&self, gap: &Gap<'_, T>) -> Ends<T> {
-        let [left, right] = gap.range();
-        let corner = |edge: Edge<T>| match edge {
-            Edge::Fixed(x) | Edge::FreeUntil(x) if self.edge_pressure.is_none() => Some(x),
-            _ => None,
-        };
-        let corners = self.edges.map(corner);
-        Ends {
-            left: corners.left.map_or(left, |x| x.max(left)),
-            right: corners.right.map_or(right, |x| x.min(right)),
-        }
+        let range = gap.range();
+        let Ends { left, right } = self.corners(range);
+        Ends { left: left.max(range[0]), right: right.min(range[1]) }
+    }
+
+    /// Returns the corners, in place of the ends of the bodies.
+    fn corners(&self, ends: [T; 2]) -> Ends<T> {
+        self.edges.zip(ends.into()).map(|(edge, end)| match edge {
+            Edge::Fixed(x) | Edge::FreeUntil(x) if self.edge_pressure.is_none() => x,
+            _ => end,
+        })
     }
 
     pub(crate) fn checked_edges(&self) -> Result<Ends<Edge<T>>, ContactError<T>> {
+        let range = self.gap.range();
+        let Ends { left, right } = self.corners(range);
         for edge in self.edges {
             match edge {
                 Edge::Adhesive(work) if !(work.is_finite() && work >= T::zero()) => {
                     return Err(InputError::InvalidAdhesion { work }.into());
                 }
                 Edge::Fixed(x) | Edge::FreeUntil(x) if !x.is_finite() => {
-                    let interval = Interval { left: x, right: x };
+                    let interval = Interval { left, right };
                     return Err(InputError::InvalidLimits { interval }.into());
                 }
                 _ => {}
@@ -494,7 +497,6 @@ impl<'b, T: Real> Contact<'b, T> {
         if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = self.edges {
             check(Interval { left, right })?;
         }
-        let range = self.gap.range();
         for edge in self.edges {
             if let Edge::Fixed(x) | Edge::FreeUntil(x) = edge
                 && !(x >= range[0] && x <= range[1])

@@ -43,8 +43,11 @@ impl<T: Real> Pose<T> {
     /// Returns this pose in the frame of another.
     fn seen_from(&self, other: &Self) -> Self {
         let back = Self { angle: -other.angle, ..*other };
-        let [x, y] = back.turned([self.x - other.x, self.y - other.y]);
-        Self { x, y, angle: self.angle - other.angle }
+        let (at, angle) = ([self.x - other.x, self.y - other.y], self.angle - other.angle);
+        // To turn numbers that are not finite would mix them with the others.
+        let is_known = at.iter().chain([&angle]).all(T::is_finite);
+        let [x, y] = if is_known { back.turned(at) } else { at };
+        Self { x, y, angle }
     }
 
     /// Checks that all its numbers are finite.

@@ -122,6 +122,19 @@ fn only_a_load_that_presses_makes_sense_unless_one_interval_is_asked_for() {
 
 /// A solver that holds several contacts refuses corners beyond the bodies as well.
 #[test]
+fn of_two_edges_the_one_that_is_nowhere_is_named() {
+    let said = |left, right| {
+        let body = Ellipse::circle(1.0, [-0.5, 0.5]).unwrap();
+        let contact = on_flat(Box::new(body)).edges(left, right);
+        contact.solve(Control::Load(0.1)).unwrap_err().to_string()
+    };
+    let error = said(Edge::Fixed(f64::NAN), Edge::Free);
+    assert!(error.contains("-b = NaN to a = 0.479426"), "{error}");
+    let error = said(Edge::Fixed(-0.25), Edge::FreeUntil(f64::INFINITY));
+    assert!(error.contains("-b = -0.25 to a = inf"), "{error}");
+}
+
+#[test]
 fn corners_beyond_the_bodies_are_named_by_a_solver_too() {
     let contact = wavy();
     let mut solver = linecontact::Solver::new();

@@ -320,6 +320,8 @@ fn poses_that_are_none_are_named_and_steep_contacts_are_said() {
         let error = pair.at(lower, upper).unwrap_err().to_string();
         assert!(error.ends_with(&format!("{says}: it must be finite")), "{error}");
     }
+    let error = pair.at(REST, pose(0.0, f64::NAN, 0.0)).unwrap_err().to_string();
+    assert!(error.contains("body 2 is at x = 0, y = NaN, turned by 0: "), "{error}");
     // What goes wrong in a contact is said of the pose: a disc as wide as the contact, bodies that
     // are pressed too deep.
     let small = References { upper: Reference::Disc(0.1), ..TO };

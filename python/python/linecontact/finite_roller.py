@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from . import _native
-from ._numbers import FloatArray, as_number
+from ._numbers import FloatArray, as_number, refusal
 from .bodies import Body, Flat
+from .errors import InvalidRollerError
 from .solver import SpringTable
 
 if TYPE_CHECKING:
@@ -152,8 +153,12 @@ class FiniteRoller:
         except TypeError:
             raise TypeError(f"slices is {slices!r}: give a whole number") from None
         self._made_of = (table, as_number(length, "length"), count, relief)
-        count = min(max(count, 0), sys.maxsize)
-        self._roller = _native.FiniteRoller(table._table, self._made_of[1], count, relief._profile)
+        whole = min(max(count, 0), sys.maxsize)
+        try:
+            self._roller = _native.FiniteRoller(table._table, self._made_of[1], whole, relief._profile)
+        except InvalidRollerError as error:
+            says = str(error).replace(f" in {whole} slices", f" in {count} slices")
+            raise refusal("InvalidRollerError", says, length=error.length, slices=count, most=error.most) from None
 
     def __reduce__(self) -> tuple[Any, ...]:
         return FiniteRoller, self._made_of
