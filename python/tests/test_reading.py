@@ -128,6 +128,13 @@ def test_numbers_below_the_table(tmp_path: Path) -> None:
     assert raised.value.line == 14
 
 
+def test_exponents_of_fortran(tmp_path: Path) -> None:
+    text = "x [mm] z [mm]\n 0.0D+00  1.0D-02\n 1.D0  -2.5d-3\n 2.0D+00  0.0E+00\n 3 0\n"
+    found = lc.read_profile(written(tmp_path, "fortran.txt", text))
+    assert found.points.tolist() == [[0.0, 0.01], [1.0, -0.0025], [2.0, 0.0], [3.0, 0.0]]
+    assert lc.Spline(found) == lc.Spline(found.points)
+
+
 def test_columns_by_name(tmp_path: Path) -> None:
     file = written(tmp_path, "wide.csv", "n,x [mm],z [um],Note\n1,0,3,7\n2,1,4,8\n")
     for names in [("x", "z"), ("X [mm]", "Z[um]"), (2, "z"), (2, 3)]:
@@ -460,10 +467,13 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("blank.csv", b"\n\n \r\n", {}, {}, "no line has two numbers"),
     ("words.csv", b"not a profile\n", {}, {}, "no line has two numbers"),
     ("one.csv", b"z [um]\n1.5\n2.5\n", {}, {"line": 2}, "columns of x and z"),
-    ("short.csv", b"0;1\n", {}, {}, "1 points were measured"),
+    ("short.csv", b"0;1\n", {}, {}, "1 point was measured"),
     ("three.csv", b"0;1;2\n1;2;3\n", {}, {"line": 1}, r"columns=\(1, 3\)"),
     ("wide.csv", b"0;1\n1;2;3\n", {}, {"line": 2}, "3 columns: there are 2"),
-    ("thin.csv", b"0;1\n1\n", {}, {"line": 2}, "1 columns: there are 2"),
+    ("thin.csv", b"0;1\n1\n", {}, {"line": 2}, "1 column: there are 2 in line 1; put # in front of it"),
+    ("count.csv", b"0;1\n" * 9 + b"9\n", {}, {"line": 10}, "put # in front of it if it is a footer"),
+    ("commas.csv", b"0,1,0,2\n0,2,0,3\n", {}, {"line": 1}, "if these are decimal commas, separate the columns by semic"),
+    ("more_commas.csv", b"0,0\n0,1,0,2\n", {}, {"line": 2}, "4 columns: .*; if these are decimal commas"),
     ("column.csv", GOOD.encode(), {"columns": (1, 3)}, {"line": 2}, "give two of 1 to 2"),
     ("zero.csv", GOOD.encode(), {"columns": (0, 1)}, {"line": 2}, "give two of 1 to 2"),
     ("word.csv", b"0;1\n1;two\n", {}, {"line": 2}, "'two' are no two numbers"),
@@ -529,7 +539,7 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("flat.x3p", x3p(SURFACE[:1], STEP), {"row": 2}, {}, "row is 2"),
     ("swapped.csv", b"n;k\n3;0\n1;1\n2;2\n", {}, {"line": 4}, r"as column 2 does \(columns=\(2, 1\)\)"),
     ("one_hole.csv", b"0;1\n1;NaN\n2;3\n", {}, {"line": 2}, ": not measured: skip_missing=True leaves it out"),
-    ("words_between.csv", b"0;1\nend\n1;2\n", {"columns": (1, 2)}, {"line": 2}, "1 columns: there are 2"),
+    ("words_between.csv", b"0;1\nend\n1;2\n", {"columns": (1, 2)}, {"line": 2}, "1 column: there are 2"),
     ("micron.csv", b"X_(microns),y1\n0,1\n1,2\n", {}, {"line": 1}, r"only one .* such as \('um', 'um'\)"),
     ("last.csv", b"x in mm,height\n0,1\n1,2\n", {}, {"line": 1}, "only one of x and z has a unit"),
     ("book.xlsx", packed({"[Content_Types].xml": b"", "xl/workbook.xml": b""}), {}, {}, "is a workbook"),

@@ -39,6 +39,8 @@ _REMARK = re.compile(r"(?:^|(?<=[\s;,]))[#%!].*")
 _NO_NUMBER = re.compile(
     r"[+-]?1[.,]#(?:[QS]?NAN|IND|INF)0*|\*+|-+|\?+|n\.?/?a\.?|null|none|no ?data|missing|invalid|bad", re.IGNORECASE
 )
+# Exponents of Fortran, as in `1.0D-02`.
+_FORTRAN = re.compile(r"(?<=[\d.])[dD](?=[+-]?\d)")
 # Names of x in headers, as `_bare` makes them.
 _ALONG = re.compile(r"x|(?:x[-_]?)?(?:pos(?:ition)?|dist(?:ance)?|length)\.?(?:[-_]?x)?|lateral|abscissa|travers?e?|travel")
 # Most rows of a footer of numbers, such as the count and the mean of the points.
@@ -88,7 +90,7 @@ class MeasuredProfile(NamedTuple):
         """
         x, inside = self.points[:, 0], self.points[self._within((first, last))]
         if len(inside) < 2:
-            raise ValueError(f"cut from {first:g} to {last:g} leaves {len(inside)} points: x is from {x[0]:g} to {x[-1]:g}")
+            raise ValueError(f"cut from {first:g} to {last:g} leaves {_counted(len(inside), 'point')}: x is from {x[0]:g} to {x[-1]:g}")
         return self._replace(points=inside)
 
     def levelled(self, *parts: Range) -> MeasuredProfile:
@@ -103,7 +105,7 @@ class MeasuredProfile(NamedTuple):
         for part in parts:
             is_fitted |= self._within(part)
         if np.sum(is_fitted) < 2:
-            raise ValueError(f"parts {parts} have {np.sum(is_fitted)} points: a line is fitted to two or more")
+            raise ValueError(f"parts {parts} have {_counted(np.sum(is_fitted), 'point')}: a line is fitted to two or more")
         middle = np.mean(x[is_fitted])
         line = np.polynomial.Polynomial.fit(x[is_fitted] - middle, z[is_fitted], 1)
         return self._replace(points=np.column_stack([x, z - line(x - middle)]))
@@ -226,6 +228,10 @@ def read_profile(
     return MeasuredProfile(points[places[::turn]], wanted, missing)
 
 
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"
+
+
 def _fault(name: str, lines: Sequence[int], at: int, reason: str) -> MeasuredFileError:
     """Returns the error at a point."""
     return MeasuredFileError(name, reason if lines else f"point {at + 1}: {reason}", lines[at] if lines else None)
@@ -235,7 +241,8 @@ def _measured(name: str, points: FloatArray, lines: Sequence[int], skip: bool) -
     """Returns the places of the points that were measured."""
     places = np.flatnonzero(np.isfinite(points).all(axis=1))
     if places.size < 2:
-        raise MeasuredFileError(name, f"{places.size} points were measured: a profile has two or more")
+        was = "was" if places.size == 1 else "were"
+        raise MeasuredFileError(name, f"{_counted(places.size, 'point')} {was} measured: a profile has two or more")
     gaps = np.setdiff1d(np.arange(places[0], places[-1]), places)
     if gaps.size and not skip:
         what = "infinite, as if not measured" if np.isinf(points[gaps[0]]).any() else "not measured"
@@ -276,7 +283,8 @@ def _text(
     can_be_x = (1 + np.flatnonzero((steps > 0).all(axis=0) | (steps < 0).all(axis=0))).tolist() if len(steps) else []
     if columns is None and width > 2:
         such = _columns_to_try(heads, width, can_be_x)
-        raise MeasuredFileError(name, f"{width} columns: give those of x and z, by number or name, {such}", first + 1)
+        reason = f"{width} columns: give those of x and z, by number or name, {such}"
+        raise MeasuredFileError(name, reason + _commas(table, delimiter), first + 1)
     x, z = _in_order(heads) if columns is None else (_numbered(name, heads, column) for column in columns)
     if min(x, z) < 1 or max(x, z) > width or x == z:
         raise MeasuredFileError(name, f"columns are {columns}: give two of 1 to {width}", first + 1)
@@ -307,8 +315,18 @@ def _table(
         rows = rows[: len(body)]
     for cells, line in rows:
         if len(cells) < width or any(cell and _number(cell) is not None for cell in cells[width:]):
-            raise MeasuredFileError(name, f"{len(cells)} columns: there are {width} in line {first + 1}", line)
+            remedy = _commas([cells for cells, _ in rows], delimiter)
+            if len(cells) < width and sum(line <= other for _, other in rows) <= _FOOTER:
+                remedy = "; put # in front of it if it is a footer, such as a count of points"
+            reason = f"{_counted(len(cells), 'column')}: there are {width} in line {first + 1}"
+            raise MeasuredFileError(name, reason + remedy, line)
     return [cells for cells, _ in rows], [line for _, line in rows]
+
+
+def _commas(table: Sequence[list[str]], delimiter: str | None) -> str:
+    """Returns a remedy if the commas between columns may be those of decimals."""
+    may_be = delimiter == "," and not any("." in cell for cells in table for cell in cells)
+    return "; if these are decimal commas, separate the columns by semicolons or tabs" if may_be else ""
 
 
 def _is_footer(body: Sequence[list[str]], behind: Sequence[list[str]], width: int) -> bool:
@@ -346,7 +364,8 @@ def _number(cell: str) -> float | None:
     if _NO_NUMBER.fullmatch(cell):
         return float("nan")
     try:
-        return None if "_" in cell else float(cell.replace(",", ".").replace("−", "-") or "nan")
+        plain = _FORTRAN.sub("e", cell.replace(",", ".").replace("−", "-"))
+        return None if "_" in cell else float(plain or "nan")
     except ValueError:
         return None
 
