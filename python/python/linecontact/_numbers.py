@@ -50,6 +50,8 @@ def as_number(given: Any, name: str) -> float:
             return float(given)
         except (TypeError, ValueError):
             pass
+        except OverflowError:
+            raise ValueError(f"{name} is too large for a float: give one number below 1.8e308") from None
     raise TypeError(f"{name} is {given!r}: give one number")
 
 
@@ -80,6 +82,23 @@ def one_of(given: Any, name: str, allowed: Sequence[str]) -> str:
     if isinstance(given, str) and given in allowed:
         return given
     raise ValueError(f"{name} is {given!r}: give one of {', '.join(map(repr, allowed))}")
+
+
+def as_side(given: Any, is_needed: bool = False) -> Any:
+    """Returns the name of a body; None if none is named, and none is needed."""
+    return None if given is None and not is_needed else one_of(given, "body", ("lower", "upper"))
+
+
+def as_references(given: Any) -> Any:
+    """Converts to an x, and the kinds and lengths of two references."""
+    try:
+        x, (below, depth), (above, height) = given
+    except (TypeError, ValueError):
+        such = "References(0.0, Reference.depth(30.0), Reference.disc(10.0))"
+        raise TypeError(f"references are {given!r}: give an x and those of both bodies, such as {such}") from None
+    kinds = [one_of(kind, "the kind of a reference", ("depth", "disc", "length")) for kind in (below, above)]
+    lengths = as_number(depth, "a reference"), as_number(height, "a reference")
+    return as_number(x, "x"), *zip(kinds, lengths, strict=True)
 
 
 def refusal(name: str, says: str, **numbers: Any) -> Exception:

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from . import _native
 from ._numbers import FloatArray, Numbers, Range, Unchanging, as_number, as_numbers, as_range, named
+from .reading import MeasuredProfile
 
 Bulge: TypeAlias = Literal["unknown", "straight", "convex", "concave"]
 Step: TypeAlias = tuple[str, tuple[float, ...]]
@@ -373,6 +374,7 @@ class Ellipse(_Shape, kind="ellipse"):
         >>> round(lc.solve(lc.Flat(), roller, contact_modulus=115e3, load=500.0).half_width, 4)
         0.2353
         """
+        radius = as_number(radius, "radius")
         return cls(abs(radius), radius, angles)
 
     def _arguments(self) -> tuple[Any, ...]:
@@ -502,7 +504,7 @@ class Spline(Body):
 
     Parameters
     ----------
-    points : array_like, shape (n, 2)
+    points : array_like, shape (n, 2), or MeasuredProfile
         Rows of x and y, lengths, in order of rising x.
     smooth : bool
         True to smooth the points; by default the curve goes through them. The noise of the
@@ -542,9 +544,10 @@ class Spline(Body):
 
     @named
     def __init__(
-        self, points: npt.ArrayLike, *, smooth: bool = False, outliers: float | None = 10.0
+        self, points: npt.ArrayLike | MeasuredProfile, *, smooth: bool = False, outliers: float | None = 10.0
     ) -> None:
-        rows = as_numbers(points, "points").copy()
+        given = points.points if isinstance(points, MeasuredProfile) else points
+        rows = as_numbers(given, "points").copy()
         if rows.ndim != 2 or rows.shape[1] != 2:
             raise ValueError(f"points of shape {rows.shape}: give rows of x and y, of shape (n, 2)")
         if not isinstance(smooth, bool | np.bool_):

@@ -9,7 +9,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
 
 from . import _native
-from ._numbers import Range, Unchanging, as_number, as_range, named, one_of, refusal
+from ._numbers import Range, Unchanging, as_number, as_range, as_references, named, one_of, refusal
 from .bodies import Body
 from .slipping import PartialSlip, acting
 from .solution import Solution, _ratio

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _native
-from ._numbers import FloatArray, as_number, one_of
+from ._numbers import FloatArray, as_number, as_references, one_of
 from .bodies import Body
 from .contact import Foundation, Plane, References, _both, _foundation
 
@@ -136,7 +136,8 @@ class Pair:
         given: dict[str, Any] = {"materials": materials, "references": references}
         self._again = partial(Pair, lower, upper, plane=plane, resolution=resolution, **given)
         surfaces = (*map(_foundation, _both(materials)), plane)
-        self._pair = _native.Pair(lower._profile, upper._profile, surfaces, references, resolution)
+        to = as_references(references)
+        self._pair = _native.Pair(lower._profile, upper._profile, surfaces, to, resolution)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return self._again, ()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 import numpy as np
 
 from . import _native
-from ._numbers import FloatArray, Numbers, as_number, each
+from ._numbers import FloatArray, Numbers, as_number, as_side, each
 from .solution import Extremum, Interval, Prescribed, Solution, Stress, StressPeak, _stress
 
 if TYPE_CHECKING:
@@ -146,11 +146,11 @@ class PartialSlip:
         At depth 0 it is the stress of the surface. A tension that stretches the body has to be
         added to `sigma_x`.
         """
-        return _stress(lambda x, depth: self._found.stress(body, x, depth), x, depth)
+        return _stress(lambda x, depth: self._found.stress(as_side(body, True), x, depth), x, depth)
 
     def max_shear(self, body: Side) -> StressPeak:
         """Returns the largest shear stress in the plane in one body, and its place."""
-        return StressPeak(*self._found.max_shear(body))
+        return StressPeak(*self._found.max_shear(as_side(body, True)))
 
     def max_von_mises(self, body: Side, poisson_ratio: float | None = None) -> StressPeak:
         """Returns the largest von Mises equivalent stress in one body, and its place.
@@ -161,7 +161,7 @@ class PartialSlip:
 
         if poisson_ratio is None:
             poisson_ratio = ratio_below(self._contact, body, None)
-        return StressPeak(*self._found.max_von_mises(body, poisson_ratio))
+        return StressPeak(*self._found.max_von_mises(as_side(body, True), poisson_ratio))
 
     def max_tension(self, body: Side) -> Extremum:
         """Returns the largest tension along the surface of one body, and its x.
@@ -180,7 +180,7 @@ class PartialSlip:
         >>> round(tension / slip.normal.peak().pressure, 12)  # 2 μ sqrt(Q/(μF))
         0.692820323028
         """
-        return Extremum(*self._found.max_tension(body))
+        return Extremum(*self._found.max_tension(as_side(body, True)))
 
     def plot(self, units: Sequence[str] = ("", "")) -> Figure:
         """Draws both bodies before loading, pressure and traction, and the shear in the lower body.

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 import numpy as np
 
 from . import _native
-from ._numbers import FloatArray, Numbers, as_number, as_numbers, each, refusal
+from ._numbers import (
+    FloatArray,
+    Numbers,
+    as_number,
+    as_numbers,
+    as_range,
+    as_references,
+    as_side,
+    each,
+    refusal,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -791,7 +801,7 @@ class Solution:
         >>> (stress.sigma_y / solution.peak().pressure).round(6)  # -1/sqrt(1 + (y/L)²)
         array([-1.      , -0.707107])
         """
-        return _stress(lambda x, depth: self._found.stress(body, x, depth, friction), x, depth)
+        return _stress(lambda x, depth: self._found.stress(as_side(body), x, depth, as_number(friction, "friction")), x, depth)
 
     def max_shear(
         self,
@@ -820,7 +830,8 @@ class Solution:
         >>> round(largest.value / solution.peak().pressure, 6), round(largest.depth / 0.1, 4)
         (0.300283, 0.7862)
         """
-        return StressPeak(*self._found.max_shear(body, depths, friction))
+        below = None if depths is None else as_range(depths, "depths")
+        return StressPeak(*self._found.max_shear(as_side(body), below, as_number(friction, "friction")))
 
     def max_von_mises(
         self,
@@ -849,9 +860,9 @@ class Solution:
         """
         from .below import ratio_below
 
-        if poisson_ratio is None:
-            poisson_ratio = ratio_below(self.contact, body, depths)
-        return StressPeak(*self._found.max_von_mises(body, depths, poisson_ratio, friction))
+        side, below = as_side(body), None if depths is None else as_range(depths, "depths")
+        ratio = ratio_below(self.contact, side, below) if poisson_ratio is None else as_number(poisson_ratio, "poisson_ratio")
+        return StressPeak(*self._found.max_von_mises(side, below, ratio, as_number(friction, "friction")))
 
     def max_tension(self, *, body: Side | None = None, friction: float = 0.0) -> Extremum:
         """Returns the largest tension along the surface, the largest σ_x at depth 0, and its x.
@@ -866,13 +877,13 @@ class Solution:
         >>> round(tension.value / solution.peak().pressure, 12), tension.x == -solution.b  # 2 μ p₀
         (0.6, True)
         """
-        return Extremum(*self._found.max_tension(body, friction))
+        return Extremum(*self._found.max_tension(as_side(body), as_number(friction, "friction")))
 
     # Approach, stiffness and partial slip.
 
     def approach(self, references: References) -> Approach:
         """Returns the approach of the bodies: lengths. The contact must have materials."""
-        return Approach(*self._found.approach(references))
+        return Approach(*self._found.approach(as_references(references)))
 
     @overload
     def displacement(self, x: float, references: References, *, body: Side) -> float: ...
@@ -903,12 +914,13 @@ class Solution:
         >>> (1e3 * solution.displacement([0.0, 0.5, 2.0], to, body="lower")).round(3)
         array([7.35 , 4.703, 2.752])
         """
-        found: float | FloatArray = each(lambda x: self._found.displacement(x, references, body), x)
+        to, side = as_references(references), as_side(body, True)
+        found: float | FloatArray = each(lambda x: self._found.displacement(x, to, side), x)
         return found
 
     def stiffness(self, references: References) -> float:
         """Returns the stiffness dF/dδ, the derivative of the load by the approach: a pressure."""
-        return self._found.stiffness(references)
+        return self._found.stiffness(as_references(references))
 
     def partial_slip(self, *, friction: float, force: float, tension: float = 0.0) -> PartialSlip:
         """Solves the contact again, under a tangential force: see `Contact.partial_slip`."""

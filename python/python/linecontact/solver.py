@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from . import _native
-from ._numbers import FloatArray, Numbers, as_number, as_numbers, as_range, named, refuse_unknown
+from ._numbers import FloatArray, Numbers, as_number, as_numbers, as_range, as_references, named, refuse_unknown
 from .bodies import Body
 from .contact import Contact, Prescribed, References, Settings, _wanted
 from .slipping import PartialSlip, acting
@@ -161,7 +161,7 @@ class SpringTable:
         tolerance: float = 1e-6,
     ) -> None:
         self._made_of = (contact, references, as_range(loads, "loads"), as_number(tolerance, "tolerance"))
-        self._table = _native.SpringTable(contact._scene, *self._made_of[1:])
+        self._table = _native.SpringTable(contact._scene, as_references(references), *self._made_of[2:])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return SpringTable, self._made_of
