@@ -292,7 +292,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         "CompleteContactError",
         {"load": 1.0, "complete": 0.0},
     ),
-    (lambda: layered(0.0).solve(load=1.0), "InvalidThicknessError", {"body": "upper", "thickness": 0.0}),
+    (lambda: layered(0.0).solve(load=1.0), "InvalidThicknessError", {"body": "", "thickness": 0.0}),
     (lambda: layered(1e308).solve(load=1.0), "KernelError", {"at": math.inf}),
     (lambda: layered(1e-5).solve(load=100.0), "LayerTooThinError", {"limit": 100.0}),
     (lambda: layered(1.0, quadrature=lc.Midpoint()).solve(load=100.0), "KernelNotSupportedError", {}),
@@ -490,7 +490,17 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (lambda: table().at(1e9), "OutsideTableError", {"approach": 1e9}),
     (lambda: lc.Outline().arc(0.0, 1.0).body(), "PiecewiseInSegmentError", {"segment": 1, "source": "ProfileParameterError"}),
     (lambda: roller(relief=lc.Parabola(-1.0, (-1.0, 1.0))), "InvalidReliefError", {"z": -0.95, "height": -0.45125}),
-    (lambda: roller(slices=-3), "InvalidRollerError", {"slices": 0, "length": 2.0}),
+    (lambda: roller(slices=-3), "InvalidRollerError", {"slices": -3, "length": 2.0}),
+    (lambda: roller(slices=10**30), "InvalidRollerError", {"slices": 10**30, "length": 2.0}),
+    # Impossible numbers, where they are given.
+    (lambda: lc.Reference.depth(-1.0), "InvalidReferenceError", {"length": -1.0}),
+    (lambda: lc.Reference.disc(0.0), "InvalidReferenceError", {"length": 0.0}),
+    (lambda: lc.Reference.length(math.inf), "InvalidReferenceError", {"length": math.inf}),
+    (lambda: lc.Layer(STEEL, -1.0, STEEL), "InvalidThicknessError", {"body": "", "thickness": -1.0}),
+    (lambda: contact(kappa=None, contact_modulus=-1.0), "InvalidModulusError", {"modulus": -1.0}),
+    (lambda: contact(kappa=math.nan), "InvalidKappaError", {}),
+    (lambda: lc.Outline().line(1.0).fillet(0.1).body(), "PiecewiseInSegmentError", {"segment": 2}),
+    (lambda: lc.Outline().line(1.0).corner(0.1).mirrored().body(), "PiecewiseInSegmentError", {"segment": 2}),
     (lambda: roller().at(1e9), "SliceOutsideTableError", {"approach": 1e9, "z": -0.95}),
     (lambda: roller().under_moment(5.0, 5.0), "LoadBeyondSlicesError", {"at": 1.0, "load": 5.0}),
     (lambda: roller(1).under_moment(5.0, 0.0), "OneSliceError", {"z": 0.0}),
@@ -797,3 +807,28 @@ def test_what_a_function_raises_comes_out_as_it_is() -> None:
         lc.Curve((-1, 1), broken)
     assert lc.Material(210e3, 0.3) == (210e3, 0.3)
     assert pickle.loads(pickle.dumps(STEEL)) == STEEL and "Material(youngs_modulus" in repr(STEEL)
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda: material().solve(load=100.0).approach(30.0), "references are 30.0: give an x and those of both"),  # type: ignore[arg-type]
+        (lambda: material().solve(approach=1e-3, references=TO.lower), "references are Reference"),  # type: ignore[arg-type]
+        (lambda: lc.SpringTable(material(), 30.0, (1.0, 2.0)), "references are 30.0"),  # type: ignore[arg-type]
+        (lambda: solved().max_shear(depths=1.0), "depths is 1.0: give two numbers"),  # type: ignore[arg-type]
+        (lambda: solved().max_shear(body=1), "body is 1: give one of 'lower', 'upper'"),  # type: ignore[arg-type]
+        (lambda: solved().max_von_mises(0.3, depths=(0.0, "1")), "depths is '1': give one number"),  # type: ignore[arg-type]
+        (lambda: solved().stress(0.0, 1.0, friction="0.1"), "friction is '0.1': give one number"),  # type: ignore[arg-type]
+        (lambda: lc.Ellipse.circle("10", (-1.0, 1.0)), "radius is '10': give one number"),  # type: ignore[arg-type]
+        (lambda: lc.Ellipse.circle((-1.0, 1.0), 10.0), r"radius is \(-1.0, 1.0\): give one number"),  # type: ignore[arg-type]
+        (lambda: contact(kappa=None, contact_modulus=np.array([1.0, 2.0])), r"contact_modulus is array\(\[1., 2.\]\)"),
+        (lambda: contact().solve(load=10**400), "load is too large for a float: give one number"),
+        (lambda: lc.Pose("a", 0, 0), "x is 'a': give one number"),  # type: ignore[arg-type]
+        (lambda: layered(1.0).solve(load=100.0).max_shear(), "give body='lower' or body='upper'"),
+        (lambda: solved(period=2.0, edges=(lc.Edge.fixed(-0.5), lc.Edge.free())), "with a period are free, .* is not free"),
+        (lambda: roller(slices=-3), "in -3 slices: .* from 1 to"),
+    ],
+)
+def test_arguments_are_named(call: Callable[[], Any], says: str) -> None:
+    with pytest.raises((TypeError, ValueError, errors.LineContactError), match=says):
+        call()

@@ -118,7 +118,11 @@ class Layer(_Layer):
         """Creates the layer; refuses what is no material here, before any solve."""
         words = ("bonded", "frictionless")
         below = cast("Rigid", one_of(base, "base", words)) if isinstance(base, str) else _material(base)
-        return super().__new__(cls, _material(material), as_number(thickness, "thickness"), below)
+        length = as_number(thickness, "thickness")
+        if not 0.0 < length < math.inf:
+            says = f"the layer is {length:g} thick: its thickness must be positive and finite"
+            raise refusal("InvalidThicknessError", says, body="", thickness=length)
+        return super().__new__(cls, _material(material), length, below)
 
 
 Foundation: TypeAlias = Layer | Sequence[float]
@@ -275,7 +279,7 @@ class Reference(NamedTuple):
     @classmethod
     def depth(cls, depth: float) -> Reference:
         """Creates a reference at this depth below the surface: a length."""
-        return cls("depth", as_number(depth, "depth"))
+        return cls("depth", _length(depth, "depth"))
 
     @classmethod
     def disc(cls, radius: float) -> Reference:
@@ -283,12 +287,20 @@ class Reference(NamedTuple):
 
         The disc is loaded at the point opposite to the contact.
         """
-        return cls("disc", as_number(radius, "radius"))
+        return cls("disc", _length(radius, "radius"))
 
     @classmethod
     def length(cls, length: float) -> Reference:
         """Creates a reference by ℓ in `2 ln(ℓ/|x - s|)`, a length: for any other constant."""
-        return cls("length", as_number(length, "length"))
+        return cls("length", _length(length, "length"))
+
+
+def _length(given: float, name: str) -> float:
+    length = as_number(given, name)
+    if not 0.0 < length < math.inf:
+        says = f"a reference at {length:g}: its depth, radius or length must be positive and finite"
+        raise refusal("InvalidReferenceError", says, length=length)
+    return length
 
 
 class References(NamedTuple):
@@ -494,7 +506,17 @@ def _prescribed(
     kind, values = _control(given, references)
     if references is not None and kind != "approach":
         raise TypeError("references belong to an approach: give them where one is asked for")
-    return kind, values, references
+    return kind, values, None if references is None else as_references(references)
+
+
+def _stiffness(given: float | None, name: str, error: str, attribute: str) -> float | None:
+    """Returns E* or κ, if it is given; refuses an impossible one."""
+    if given is None:
+        return None
+    number = as_number(given, name)
+    if not 0.0 < number < math.inf:
+        raise refusal(error, f"{name} is {number:g}: it must be positive and finite", **{attribute: number})
+    return number
 
 
 class Contact(Unchanging):
@@ -596,6 +618,8 @@ class Contact(Unchanging):
                 raise TypeError("the tolerance is that of Panels: give it there, or no quadrature")
             quadrature = Panels(as_number(tolerance, "tolerance"))
         self.lower, self.upper = lower, upper
+        contact_modulus = _stiffness(contact_modulus, "contact_modulus", "InvalidModulusError", "modulus")
+        kappa = _stiffness(kappa, "kappa", "InvalidKappaError", "kappa")
         self._settings: dict[str, Any] = {
             "contact_modulus": contact_modulus,
             "materials": materials,

@@ -16,10 +16,16 @@ from .contact import Foundation, Plane, References, _both, _foundation
 __all__ = ["Pair", "Pose", "Wrench"]
 
 
-class Pose(NamedTuple):
+class _Pose(NamedTuple):
+    x: float
+    y: float
+    angle: float
+
+
+class Pose(_Pose):
     """Place of a body in the plane.
 
-    Attributes
+    Parameters
     ----------
     x, y : float
         The body's origin: lengths.
@@ -33,9 +39,11 @@ class Pose(NamedTuple):
     Pose(x=3.0, y=0.0, angle=0.1)
     """
 
-    x: float = 0.0
-    y: float = 0.0
-    angle: float = 0.0
+    __slots__ = ()
+
+    def __new__(cls, x: float = 0.0, y: float = 0.0, angle: float = 0.0) -> Pose:
+        """Creates the pose; refuses what is no number here, before any step."""
+        return super().__new__(cls, as_number(x, "x"), as_number(y, "y"), as_number(angle, "angle"))
 
 
 class Wrench(NamedTuple):
