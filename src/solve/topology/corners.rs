@@ -46,11 +46,6 @@ const STEP_INWARD: f64 = 0.01;
 /// the other limit may have been free, too.
 const MAX_PASSES: usize = 2;
 
-/// Largest distance beyond a corner at which a limit found free is held there, as a share of the
-/// distance at which its rounding changes the pressure as much as holding it does: a free limit is
-/// exact.
-const UNTOLD: f64 = 1.0 / 16.0;
-
 /// Least ratio of distances d that are let go together.
 const TOGETHER: f64 = 0.01;
 
@@ -165,16 +160,19 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
         for side in Side::BOTH {
             let beyond = |z: T| outward::<T>(side) * (on[side] - z);
-            let least = |z: T| T::epsilon() * (z.abs() + on.half_width());
+            let least = |z: T| T::of(8.0) * T::epsilon() * (z.abs() + on.half_width());
             let z = match edges[side] {
-                Edge::FreeUntil(z) if beyond(z) > T::of(8.0) * least(z) => Some(z),
+                Edge::FreeUntil(z) if beyond(z) > least(z) => Some(z),
                 Edge::FreeUntil(_) | Edge::Free if passed[side] == 0 && (by_load || !any) => {
                     let corner = match side {
                         Side::Left => gap.breakpoint_after(on.left),
                         Side::Right => gap.breakpoint_before(on.right),
                     };
-                    let untold = |z: T| (T::epsilon() * z.abs() * on.half_width()).sqrt();
-                    corner.filter(|&z| beyond(z) < T::of(UNTOLD) * untold(z))
+                    // Rounding changes the pressure there by more than ε^(1/3), to hold the limit
+                    // by less than ε^(2/3).
+                    let cube = |d: T| d * d * d;
+                    let untold = |z: T| (T::epsilon() * z.abs()).powi(2) * on.half_width();
+                    corner.filter(|&z| cube(beyond(z)) < untold(z))
                 }
                 _ => None,
             };
