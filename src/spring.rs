@@ -148,8 +148,8 @@ impl<T: Real> SpringTable<T> {
     /// [`InputError::InvalidTolerance`] for a tolerance that is not above 0 and below 1;
     /// [`ToleranceNotReached`](crate::SolveError::ToleranceNotReached) for one that 4096 points, or
     /// such close ones, do not reach, with the error that they leave; the errors of
-    /// [`Contact::solve`], [`Solution::approach`], [`Solution::stiffness`] and
-    /// [`Solution::peak`]; [`SolveError::Falls`](crate::SolveError::Falls).
+    /// [`Contact::solve`], [`Solution::approach`], [`Solution::stiffness`] and [`Solution::peak`];
+    /// [`SolveError::Falls`](crate::SolveError::Falls).
     pub fn new(
         contact: &Contact<'_, T>,
         references: &References<T>,

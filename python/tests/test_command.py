@@ -473,7 +473,7 @@ def test_exit_codes(run: Run, tmp_path: Path) -> None:
     assert not (tmp_path / "page.html").exists()
     code, _, errors = run(scene, "--load", "-1")
     assert code == 2 and "load = -1: the load is -1" in errors
-    negative = lc.Contact(lc.Flat(), ROLLER, contact_modulus=-1.0)
+    negative = lc.Contact(lc.Flat(), ROLLER, contact_modulus=1.0, period=-1.0)
     assert run(Scene(negative, ({"load": 1.0},)))[0] == 3
     code, text, errors = run(None, tmp_path / "none.toml")
     assert code == 3 and errors == f"linecontact: {tmp_path / 'none.toml'}: No such file or directory\n"

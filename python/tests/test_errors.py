@@ -816,7 +816,7 @@ def test_what_a_function_raises_comes_out_as_it_is() -> None:
         (lambda: material().solve(approach=1e-3, references=TO.lower), "references are Reference"),  # type: ignore[arg-type]
         (lambda: lc.SpringTable(material(), 30.0, (1.0, 2.0)), "references are 30.0"),  # type: ignore[arg-type]
         (lambda: solved().max_shear(depths=1.0), "depths is 1.0: give two numbers"),  # type: ignore[arg-type]
-        (lambda: solved().max_shear(body=1), "body is 1: give one of 'lower', 'upper'"),  # type: ignore[arg-type]
+        (lambda: solved().max_shear(body=1), "body is 1: give 'lower' or 'upper'"),  # type: ignore[arg-type]
         (lambda: solved().max_von_mises(0.3, depths=(0.0, "1")), "depths is '1': give one number"),  # type: ignore[arg-type]
         (lambda: solved().stress(0.0, 1.0, friction="0.1"), "friction is '0.1': give one number"),  # type: ignore[arg-type]
         (lambda: lc.Ellipse.circle("10", (-1.0, 1.0)), "radius is '10': give one number"),  # type: ignore[arg-type]

@@ -86,7 +86,9 @@ def one_of(given: Any, name: str, allowed: Sequence[str]) -> str:
 
 def as_side(given: Any, is_needed: bool = False) -> Any:
     """Returns the name of a body; None if none is named, and none is needed."""
-    return None if given is None and not is_needed else one_of(given, "body", ("lower", "upper"))
+    if given in ("lower", "upper") or (given is None and not is_needed):
+        return given
+    raise ValueError(f"body is {given!r}: give 'lower' or 'upper'")
 
 
 def as_references(given: Any) -> Any:
