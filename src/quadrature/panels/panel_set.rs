@@ -360,7 +360,7 @@ impl<T: Real> PanelSet<T> {
                 splits += 1;
                 let level = trial.level + 1;
                 let Candidate { wave, hides, .. } = trial;
-                let sparse = trial.sparse || trial.has_kink();
+                let sparse = trial.sparse || !self.is_loose() && trial.has_kink();
                 let half = |x| Candidate { level, wave, hides, sparse, ..Candidate::new(x) };
                 let [mut one, mut other] = [half([left, middle]), half([middle, right])];
                 self.try_out(gap, &mut one)?;

@@ -29,7 +29,8 @@ pub(super) struct Candidate<T> {
     /// True if another halving should help, whatever the level.
     pub falls: bool,
     /// True if parts start with the fewest nodes: a halving has doubled the error, as of noise, or
-    /// there seems to be a kink, which needs as many halvings whatever their nodes.
+    /// there seems to be a kink, which needs as many halvings whatever their nodes. (A loose
+    /// tolerance would end them early.)
     pub sparse: bool,
     /// True if the span is part of a wave that looked like noise.
     pub wave: bool,
