@@ -140,8 +140,8 @@ impl<T: Real> SpringTable<T> {
     /// Computes the table over a range of loads per unit length, from the least to the largest.
     ///
     /// The tolerance is a share of the load, the half-width and the peak, whichever is worst; of
-    /// smooth bodies 1e-14 is reached. Points stand apart by a millionth of the load or more, which
-    /// limits what is reached next to a load under which the contact meets a corner.
+    /// smooth bodies 1e-14 is reached. Points stand apart by a millionth of the load or more: next
+    /// to a load under which the contact meets a corner the error stays larger.
     ///
     /// # Errors
     /// [`InputError::InvalidLoad`] for a range that is not positive and rising;
@@ -186,7 +186,7 @@ impl<T: Real> SpringTable<T> {
         }
         let (points, mut pending) = (vec![first, last], VecDeque::from([[first, last]]));
         let mut table = Self { points, error: zero, stiffness_error: zero, touch_error };
-        // Halves wait until all wider intervals are tested: what the table has of points is spread.
+        // Halves wait until all wider intervals are tested, so that the points are spread.
         while let Some([from, to]) = pending.pop_front() {
             let ratio = to.point.load / from.point.load;
             let place = |share: f64| from.point.load * ratio.powf(T::of(share));

@@ -164,8 +164,8 @@ impl<T: Real> Outline<T> {
     /// Returns the pieces of the body, from left to right.
     ///
     /// # Errors
-    /// [`PiecewiseError::InSegment`], with the number of the line or arc, as drawn, from 1: of that
-    /// which is missing, where a corner, a fillet or a chamfer is the last.
+    /// [`PiecewiseError::InSegment`], with the number of the line or arc, as drawn, from 1. A
+    /// corner, a fillet or a chamfer at the end misses the segment after it.
     pub fn segments(&self) -> Result<Vec<Segment<T>>, PiecewiseError<T>> {
         let mut found = Vec::<Segment<T>>::with_capacity(2 * self.drawn.len());
         let mut end = (self.start, T::zero());

@@ -220,7 +220,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
                 continue;
             }
             if !may_be_held
-                || !self.passes(&found, &mut passed) && !self.lets_go(&mut found, passed)?
+                || !self.passes(&found, &mut passed)? && !self.lets_go(&mut found, passed)?
             {
                 return Ok(found);
             }

@@ -4,7 +4,7 @@
 use crate::common;
 
 use approx::assert_relative_eq;
-use common::{graph, on_flat, parabola};
+use common::{graph, join, on_flat, parabola};
 use linecontact::profile::Parabola;
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Piecewise, Solution, SolveError,
@@ -213,5 +213,33 @@ fn a_corner_that_was_passed_lets_go_if_the_other_one_holds() {
         let [warm, cold] = [warm.unwrap().hull(), cold.unwrap().hull()];
         assert_relative_eq!(warm.left, cold.left, epsilon = 1e-13);
         assert!(warm.left > -0.4 && [warm.right, cold.right] == [0.5; 2], "{warm:?} {cold:?}");
+    }
+}
+
+/// A parabola in three pieces, and one whose outer pieces open more steeply, touch just up to the
+/// joints next to ±1.
+#[test]
+fn a_limit_at_a_joint_is_free_unless_the_joint_is_a_corner() {
+    for (jump, joint) in
+        [0.0, 1e-3, 10.0].into_iter().flat_map(|jump| [1.0, 1.0 - 1e-15].map(|joint| (jump, joint)))
+    {
+        let side = |from: f64, to: f64, sign: f64| {
+            let y = move |x: f64| x * x / 2.0 + jump * (x.abs() - joint);
+            graph(from, to, move |x| [y(x), x + sign * jump])
+        };
+        let middle = graph(-joint, joint, |x| [x * x / 2.0, x]);
+        let contact = on_flat(join(vec![side(-3.0, -joint, -1.0), middle, side(joint, 3.0, 1.0)]));
+        for control in [Control::Load(0.5), Control::HalfWidth(1.0)] {
+            let solution = contact.solve(control).unwrap();
+            let hull = solution.hull();
+            assert!(
+                (hull.left + 1.0).abs() < 1e-13 && (hull.right - 1.0).abs() < 1e-13,
+                "{hull:?}"
+            );
+            let [region] = solution.contacts().unwrap()[..] else { panic!("{solution}") };
+            let is_held = region.held.left || region.held.right;
+            assert!(jump > 0.0 || !is_held, "{control:?}: {solution}");
+            assert!(solution.limits_error().unwrap() < 1e-12, "{solution}");
+        }
     }
 }

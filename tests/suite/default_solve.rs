@@ -141,6 +141,18 @@ fn instructions_are_those_kept() {
     }
     let unknown = format!("(of unknown shape: {} for", counts(&["one", ""], &[1, 2]).join(" and "));
     assert!(text.contains(&unknown), "{unknown}");
+    // Cold, and the next load.
+    let [circle, layer] = ["circle\t", "layer1\t"].map(|scene| {
+        let row = kept.lines().find(|line| line.starts_with(scene)).unwrap();
+        [1, 3].map(|column| row.split('\t').nth(column).unwrap().parse::<f64>().unwrap())
+    });
+    let [first, next] = [0, 1].map(|i| (layer[i] / circle[i]).round());
+    let guide =
+        include_str!("../../docs/guide.md").split_whitespace().collect::<Vec<_>>().join(" ");
+    let times = format!(
+        "takes {first} times the instructions of the circle of half-planes, a next load {next} times"
+    );
+    assert!(guide.contains(&times), "{times}");
 }
 
 /// Groups the digits of a number by thousands.

@@ -259,7 +259,7 @@ def _scale(axes: Axes, solution: Solution, lowest: float, slip: PartialSlip | No
 
 
 def _draw_shear(axes: Axes, x: FloatArray, depth: FloatArray, shear: FloatArray, solution: Solution) -> ContourSet:
-    """Draws the shear on a grid; what is larger only next to a place of infinite pressure has one colour."""
+    """Draws the shear on a grid; larger values, next to a place of infinite pressure, share one colour."""
     from matplotlib.ticker import MaxNLocator
 
     deep = shear

@@ -42,7 +42,7 @@ class Pose(_Pose):
     __slots__ = ()
 
     def __new__(cls, x: float = 0.0, y: float = 0.0, angle: float = 0.0) -> Pose:
-        """Creates the pose; refuses what is no number here, before any step."""
+        """Creates the pose; refuses arguments that are no numbers, before any step."""
         return super().__new__(cls, as_number(x, "x"), as_number(y, "y"), as_number(angle, "angle"))
 
 

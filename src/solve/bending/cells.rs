@@ -10,7 +10,7 @@ use crate::gap::Sampler;
 use crate::kernel::{Given, Kept, at_least, pressed};
 use crate::solve::active_set::{Coarse, FIRST_CELLS, LENGTH, NotFound, Scene, active_set};
 use crate::solve::capacity::Capacity;
-use crate::{ContactError, Control, Edge, Ends, Fallible, Real, Side};
+use crate::{ContactError, Control, Edge, Ends, Fallible, InputError, Real, Side};
 
 /// Factor by which cells may be wrong in a contact that is too wide.
 const DOUBT: f64 = 1.01;
@@ -84,7 +84,8 @@ impl<T: Real> Bending<'_, '_, '_, T> {
     /// on half-planes of it, and of all if they do not suffice.
     fn coarse(&mut self, load: Load<T>) -> Fallible<T, Option<Coarse<T>>> {
         let Ends { left, right } = self.contact.ends_of(&self.gap);
-        let is_wide = matches!(&self.fault, Some(ContactError::Input(_)));
+        let is_wide =
+            matches!(self.fault, Some(ContactError::Input(InputError::LayerTooThin { .. })));
         if let Some(on) = self.work.workspace.hull().filter(|_| is_wide) {
             let room = on.half_width();
             let around = [(on.left - room).max(left), (on.right + room).min(right)];

@@ -151,28 +151,22 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Holds the limits of the only contact that have passed a corner at an end of the bodies, or
     /// one inside by less than x is known; tells whether there are any, and counts them in
     /// `passed`.
-    pub(super) fn passes(&mut self, found: &ContactState<T>, passed: &mut Ends<usize>) -> bool {
+    pub(super) fn passes(
+        &mut self,
+        found: &ContactState<T>,
+        passed: &mut Ends<usize>,
+    ) -> Fallible<T, bool> {
         let (edges, on, mut any) = (self.edges(), found.interval, false);
         if self.work.workspace.newton.on.len() > 1 {
-            return false;
+            return Ok(false);
         }
-        let gap = &self.contact.gap;
-        let by_load = !matches!(self.conditions.given, Given::HalfWidth(_));
         for side in Side::BOTH {
             let beyond = |z: T| outward::<T>(side) * (on[side] - z);
             let least = |z: T| T::of(8.0) * T::epsilon() * (z.abs() + on.half_width());
             let z = match edges[side] {
                 Edge::FreeUntil(z) if beyond(z) > least(z) => Some(z),
-                Edge::FreeUntil(_) | Edge::Free if passed[side] == 0 && (by_load || !any) => {
-                    let corner = match side {
-                        Side::Left => gap.breakpoint_after(on.left),
-                        Side::Right => gap.breakpoint_before(on.right),
-                    };
-                    // Rounding changes the pressure there by more than ε^(1/3), to hold the limit
-                    // by less than ε^(2/3).
-                    let cube = |d: T| d * d * d;
-                    let untold = |z: T| (T::epsilon() * z.abs()).powi(2) * on.half_width();
-                    corner.filter(|&z| cube(beyond(z)) < untold(z))
+                Edge::FreeUntil(_) | Edge::Free if passed[side] == 0 => {
+                    self.corner_untold(found, side)?
                 }
                 _ => None,
             };
@@ -186,7 +180,28 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 (passed[side], any) = (passed[side] + 1, true);
             }
         }
-        any
+        Ok(any)
+    }
+
+    /// Returns the corner inside the bodies that a limit found has passed by less than x is known:
+    /// rounding changes the pressure there by more than ε^(1/3), to hold the limit by less than
+    /// ε^(2/3).
+    fn corner_untold(&mut self, found: &ContactState<T>, side: Side) -> Fallible<T, Option<T>> {
+        let (gap, on) = (&self.contact.gap, found.interval);
+        let half_width = on.half_width();
+        let next = match side {
+            Side::Left => gap.breakpoint_after(on.left),
+            Side::Right => gap.breakpoint_before(on.right),
+        };
+        let is_untold = |&z: &T| {
+            let away = (on[side] - z).abs();
+            away * away * away < (T::epsilon() * z.abs()).powi(2) * half_width
+        };
+        let Some(z) = next.filter(is_untold) else { return Ok(None) };
+        let mean = found.load / self.contact.kappa / half_width;
+        let corner = self.corner(z, side)?;
+        let rise = self.steepest_beyond(&corner, T::of(SHORT_WALL) * half_width)?;
+        Ok((rise > least_rise(mean)).then_some(z))
     }
 
     /// Returns the corner inside the bodies next to a limit of a contact, if there is one. `mean`
@@ -198,7 +213,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let inside = on[side.other()];
         let mut corners = self.breakpoints(around, side);
         corners.retain(|&z| outward * (z - inside) > T::zero());
-        for (i, &z) in corners.iter().enumerate() {
+        let reach = T::of(SHORT_WALL) * on.half_width();
+        for z in corners {
             let corner = self.corner(z, side)?;
             if outward * (z - x) > T::zero() {
                 // Beyond a hollow corner the limit does not get.
@@ -207,8 +223,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                     break;
                 }
             }
-            let reach = T::of(SHORT_WALL) * on.half_width();
-            if self.steepest_beyond(&corner, &corners[i + 1..], reach)? > least_rise(mean) {
+            if self.steepest_beyond(&corner, reach)? > least_rise(mean) {
                 return Ok(Some(z));
             }
         }
@@ -230,10 +245,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let mean = self.conditions.load() / self.contact.kappa / (right - left);
         let (on, reach) = (Interval { left, right }, T::of(0.5 * SHORT_WALL) * (right - left));
         for side in Side::BOTH {
-            let corners = self.breakpoints(on, side);
-            for (i, &z) in corners.iter().enumerate() {
-                let (corner, next) = (self.corner(z, side)?, &corners[i + 1..]);
-                if self.steepest_beyond(&corner, next, reach)? > least_rise(mean) {
+            for z in self.breakpoints(on, side) {
+                let corner = self.corner(z, side)?;
+                if self.steepest_beyond(&corner, reach)? > least_rise(mean) {
                     return Ok(true);
                 }
             }
@@ -250,11 +264,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Returns the steepest slope, outward, up to a distance beyond a breakpoint, above the slope
-    /// inside: at the ends of the pieces there, given the breakpoints that follow.
-    fn steepest_beyond(&mut self, corner: &Corner<T>, next: &[T], reach: T) -> Fallible<T, T> {
-        let z = corner.z;
-        let ends = next.iter().map(|&x| (x - z).abs()).take_while(|&away| away < reach);
-        let away: Vec<T> = ends.chain([reach]).collect();
+    /// inside: at the ends of the pieces there.
+    fn steepest_beyond(&mut self, corner: &Corner<T>, reach: T) -> Fallible<T, T> {
+        let &Corner { z, side, .. } = corner;
+        let at = z + outward::<T>(side) * reach;
+        let ends = self.breakpoints(Interval { left: z.min(at), right: z.max(at) }, side);
+        let away: Vec<T> = ends.iter().map(|&x| (x - z).abs()).chain([reach]).collect();
         let rises = self.rise_beyond(corner, &away)?;
         Ok(rises.into_iter().fold(self.contact.gap.jump(z)[0], T::max))
     }
@@ -396,9 +411,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             .map(|i| [T::of(0.5 * (1.0 + rule.nodes[i])), T::of(rule.weights[i])])
             .collect();
         let corner = self.corner(z, side)?;
-        let at = z + outward::<T>(side) * reach;
-        let next = self.breakpoints(Interval { left: z.min(at), right: z.max(at) }, side);
-        let steepest = self.steepest_beyond(&corner, &next, reach)?;
+        let steepest = self.steepest_beyond(&corner, reach)?;
         let most = reach.sqrt();
         let mut share_at = |root: T| -> Fallible<T, T> {
             let away: Vec<T> =
