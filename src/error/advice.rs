@@ -30,11 +30,21 @@ pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, pea
             "the bodies touch first at their end x = {x}, and carry nothing of the load {asked}: extend the domain"
         );
     }
+    if carried != carried {
+        return format!(
+            "the contact would leave the bodies at x = {x} under the load {asked}: extend the domain, lower the load"
+        );
+    }
     let (carried, half_width, peak) = (apart(carried, &[load]), six(half_width), six(peak));
     format!(
         "the contact would leave the bodies at x = {x}: up to there they carry {carried} of the load {asked}, with \
          half-width {half_width} and peak pressure {peak}; extend the domain, lower the load"
     )
+}
+
+/// Names the peak pressure of a contact, if it is known.
+pub(super) fn with_peak<T: Real>(peak: T) -> String {
+    if peak == peak { format!(" with peak pressure {}", six(peak)) } else { String::new() }
 }
 
 /// Returns the remedy for an approach that a table does not cover.

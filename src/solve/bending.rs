@@ -15,7 +15,7 @@ mod cells;
 mod row;
 
 use super::by_load::{self, ByApproach, HalfWidth, Peak};
-use super::{Contact, Control, Work, find_under};
+use super::{Contact, Control, Work, find_under, first_touch};
 use crate::gap::Gap;
 use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
 use crate::solution::{ContactState, Integrals, Report, Solved};
@@ -95,6 +95,9 @@ pub(super) fn find<'b, T: Real>(
         let by = ByApproach { references, bodies };
         return by_load::find_of(contact, Some(kernel), &by, ("approach", approach), work);
     }
+    if let Control::HalfWidth(half_width) = control {
+        check_width(kernel, half_width, 1.0)?;
+    }
     let mut found = from_last(contact, kernel, control, work);
     // Where a row is about to touch all over, the contacts under a lighter load are a start, and so
     // are those under each load on the way.
@@ -168,6 +171,16 @@ fn from_last<'b, T: Real>(
 /// Tells whether a contact of this half-width fills the period of a row.
 fn fills<T: Real>(kernel: &Kernel<'_, T>, half_width: T) -> bool {
     kernel.row.as_ref().is_some_and(|row| half_width + half_width >= row.period)
+}
+
+/// Refuses a contact that is some times too wide beside the kernel.
+fn check_width<T: Real>(kernel: &Kernel<'_, T>, half_width: T, times: f64) -> Fallible<T, ()> {
+    let Some(distance) = kernel.layer_distance() else { return Ok(()) };
+    let (ratio, limit) = (half_width / (T::of(0.5) * distance), T::of(THINNEST));
+    if ratio > T::of(times) * limit {
+        return Err(InputError::LayerTooThin { ratio, limit }.into());
+    }
+    Ok(())
 }
 
 /// Tells whether a search ends with this error: no other bend would help.
@@ -276,7 +289,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             }
             let is_least = self.is_least(residual, solved.found.error);
             if is_least && left == 0 {
-                self.check_width(solved.found.interval, 1.0)?;
+                check_width(&self.kernel, solved.found.interval.half_width(), 1.0)?;
                 if solved.is_checked {
                     let error = solved.found.error.map(|error| error + residual);
                     self.work.workspace.spreads = spreads;
@@ -314,7 +327,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
 
     /// Goes on from a solve that failed.
     fn recover(&mut self, error: ContactError<T>) -> Fallible<T, ()> {
-        if ends(&error) {
+        if ends(&error) || self.bears_nothing(&error)? {
             return Err(error);
         }
         self.is_checked = true;
@@ -332,8 +345,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn not_found(&mut self) -> ContactError<T> {
         let error = match (self.fault.take(), self.reaches) {
             (Some(fault), _) if self.fills(&fault) => self.complete(),
-            (_, Some(side)) => self.too_short(side),
-            (Some(fault), _) if self.target.is_empty() => Ok(fault),
+            (_, Some(side)) => Ok(self.too_short(side)),
+            // What is too wide is the contact of half-planes.
+            (Some(ContactError::Input(InputError::LayerTooThin { .. })), _) => Ok(self.stuck()),
+            (Some(fault), _) if self.target.is_empty() => Ok(fault.of_any_load()),
             _ => Ok(self.stuck()),
         };
         error.unwrap_or_else(|error| error)
@@ -343,15 +358,19 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         SolveError::Bending { residual: self.before, solves: MAX_SOLVES }.into()
     }
 
-    /// Refuses a contact that is some times too wide beside the kernel.
-    fn check_width(&self, on: Interval<T>, times: f64) -> Fallible<T, ()> {
-        let Some(distance) = self.kernel.layer_distance() else { return Ok(()) };
-        let thickness = T::of(0.5) * distance;
-        let (ratio, limit) = (on.half_width() / thickness, T::of(THINNEST));
-        if ratio > T::of(times) * limit {
-            return Err(InputError::LayerTooThin { ratio, limit }.into());
-        }
-        Ok(())
+    /// Tells whether this is the error of bodies that, not yet bent, touch first at an end: they do so
+    /// on any layer.
+    fn bears_nothing(&mut self, error: &ContactError<T>) -> Fallible<T, bool> {
+        let ends = self.contact.ends();
+        Ok(match error {
+            _ if !self.spreads.is_empty() => false,
+            ContactError::Solve(SolveError::DomainTooShort { carried, .. }) => carried.is_zero(),
+            ContactError::Solve(SolveError::NoFirstContact { .. }) => {
+                let place = first_touch(self.contact, self.work.workspace, self.work.cost)?;
+                Side::BOTH.into_iter().any(|side| self.is_free_end(side) && place == ends[side])
+            }
+            _ => false,
+        })
     }
 
     /// Takes the whole correction of a solve with this residual.
@@ -413,7 +432,8 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         workspace.bent = id;
         (workspace.report, workspace.cell_work) = (Report::new(), 0);
         let found = find_under(&scene, control, self.work)?;
-        if let Err(error) = self.check_width(found.interval, MOST_TIMES) {
+        let half_width = found.interval.half_width();
+        if let Err(error) = check_width(&self.kernel, half_width, MOST_TIMES) {
             self.work.workspace.keep(&[found.interval]);
             return Err(error);
         }

@@ -36,4 +36,8 @@ impl<T: Real> Quantity<T> for HalfWidth {
     fn of_widest(&self, wanted: T, widest: &Capacity<T>) -> Option<(T, ContactError<T>)> {
         Some((widest.half_width, widest.too_wide(wanted)))
     }
+
+    fn none(&self, search: &ByLoad<'_, '_, '_, T>) -> Option<ContactError<T>> {
+        search.widest().map(|widest| widest.too_wide(search.wanted))
+    }
 }
