@@ -141,7 +141,8 @@ impl<T: Real> Subsurface<'_, T> {
             }
         }
         let [x, zero] = [self.hull().left, T::zero()];
-        Ok(best.unwrap_or(StressPeak { x, depth: zero, value: zero }))
+        let best = best.unwrap_or(StressPeak { x, depth: zero, value: zero });
+        Ok(StressPeak { x: self.solution.gap.folded(best.x), ..best })
     }
 
     /// Lists places on the surface of a contact: its grid of pressures, and the places where stress
