@@ -80,13 +80,10 @@ impl<T: Real> ContactError<T> {
         self
     }
 
-    /// Returns this error without what bodies bear up to an end, if that is known of others only.
-    pub(crate) fn of_any_load(mut self) -> Self {
-        if let Self::Solve(SolveError::DomainTooShort { carried, half_width, peak, .. }) = &mut self
-        {
-            [*carried, *half_width, *peak] = [T::of(f64::NAN); 3];
-        }
-        self
+    /// Tells whether bodies with this error touch first at an end, and bear nothing.
+    pub(crate) fn is_of_nothing(&self) -> bool {
+        let zero = T::zero();
+        matches!(self, Self::Solve(SolveError::DomainTooShort { carried, .. }) if *carried == zero)
     }
 
     /// Tells whether a search for one contact may end with this error because the bodies touch in

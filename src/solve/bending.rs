@@ -21,6 +21,7 @@ use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
 use crate::solution::{ContactState, Integrals, Report, Solved};
 use crate::{ContactError, Edge, Ends, Fallible, InputError, Interval, Real, Side, SolveError};
 use cells::line_of_load;
+use row::merged;
 
 /// Contacts solved before the search is given up.
 const MAX_SOLVES: usize = 120;
@@ -242,11 +243,9 @@ struct Bending<'s, 'w, 'b, T: Real> {
 
 /// Returns the interval of some pressures, from the first to the last.
 fn hull<T: Real>(spreads: &[Spread<T>]) -> Option<Interval<T>> {
-    let hull = |one: Interval<T>, on: Interval<T>| Interval {
-        left: one.left.min(on.left),
-        right: one.right.max(on.right),
-    };
-    spreads.iter().map(|spread| spread.on).reduce(hull)
+    let contacts = merged(spreads);
+    let [first, last] = [contacts.first()?, contacts.last()?];
+    Some(Interval { left: first.left, right: last.right })
 }
 
 /// Returns the ρ of rounding.
@@ -327,7 +326,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
 
     /// Goes on from a solve that failed.
     fn recover(&mut self, error: ContactError<T>) -> Fallible<T, ()> {
-        if ends(&error) || self.bears_nothing(&error)? {
+        if ends(&error) || self.spreads.is_empty() && self.bears_nothing(&error)? {
             return Err(error);
         }
         self.is_checked = true;
@@ -345,10 +344,13 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn not_found(&mut self) -> ContactError<T> {
         let error = match (self.fault.take(), self.reaches) {
             (Some(fault), _) if self.fills(&fault) => self.complete(),
-            (_, Some(side)) => Ok(self.too_short(side)),
-            // What is too wide is the contact of half-planes.
+            (_, Some(side)) => Ok(self.too_short(self.contact.ends_of(&self.gap)[side])),
+            // What is too wide, or bears this load, is the contact of half-planes.
             (Some(ContactError::Input(InputError::LayerTooThin { .. })), _) => Ok(self.stuck()),
-            (Some(fault), _) if self.target.is_empty() => Ok(fault.of_any_load()),
+            (Some(ContactError::Solve(SolveError::DomainTooShort { end, .. })), _) => {
+                Ok(self.too_short(end))
+            }
+            (Some(fault), _) if self.target.is_empty() => Ok(fault),
             _ => Ok(self.stuck()),
         };
         error.unwrap_or_else(|error| error)
@@ -358,19 +360,16 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         SolveError::Bending { residual: self.before, solves: MAX_SOLVES }.into()
     }
 
-    /// Tells whether this is the error of bodies that, not yet bent, touch first at an end: they do so
-    /// on any layer.
+    /// Tells whether bodies with this error, not yet bent, touch first at an end or all along: they
+    /// do so on any layer.
     fn bears_nothing(&mut self, error: &ContactError<T>) -> Fallible<T, bool> {
-        let ends = self.contact.ends();
-        Ok(match error {
-            _ if !self.spreads.is_empty() => false,
-            ContactError::Solve(SolveError::DomainTooShort { carried, .. }) => carried.is_zero(),
-            ContactError::Solve(SolveError::NoFirstContact { .. }) => {
-                let place = first_touch(self.contact, self.work.workspace, self.work.cost)?;
-                Side::BOTH.into_iter().any(|side| self.is_free_end(side) && place == ends[side])
-            }
-            _ => false,
-        })
+        let ContactError::Solve(SolveError::NoFirstContact { slope, .. }) = error else {
+            return Ok(error.is_of_nothing());
+        };
+        let place = first_touch(self.contact, self.work.workspace, self.work.cost)?;
+        let (ends, edges) = (self.contact.ends(), self.contact.edges);
+        let is_at = |side| edges[side] == Edge::Free && place == ends[side];
+        Ok(slope.iter().all(T::is_zero) || Side::BOTH.into_iter().any(is_at))
     }
 
     /// Takes the whole correction of a solve with this residual.

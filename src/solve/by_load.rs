@@ -369,9 +369,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
         if self.kernel.is_some() {
             // What half-planes, or bodies with the bend of another load, bear is no bound.
             return match *error {
-                ContactError::Solve(DomainTooShort { carried, .. }) if carried.is_zero() => {
-                    Err(error.clone())
-                }
+                _ if error.is_of_nothing() => Err(error.clone()),
                 ContactError::Solve(Bending { .. } | DomainTooShort { .. })
                 | ContactError::Input(InputError::LayerTooThin { .. }) => {
                     Ok(ControlFlow::Continue(unknown(load, infinite)))
@@ -431,13 +429,13 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
         is_close && !high.value.is_finite() && self.next(low) > ratio * high.load
     }
 
-    /// Returns the widest contacts found of bodies with a kernel, if wider ones leave them.
-    fn widest(&self) -> Option<Capacity<T>> {
-        let Point { load, half_width, .. } = self.low.filter(|_| self.kernel.is_some())?;
+    /// Returns the widest contacts found, and the value there, if wider ones leave the bodies.
+    fn widest(&self) -> Option<(Capacity<T>, T)> {
+        let Point { load, value, half_width, .. } = self.low.filter(|low| low.value > T::zero())?;
         let Some(ContactError::Solve(SolveError::DomainTooShort { end, .. })) = self.fault else {
             return None;
         };
-        Some(Capacity { half_width, end, load, peak: T::of(f64::NAN) })
+        Some((Capacity { half_width, end, load, peak: T::of(f64::NAN) }, value))
     }
 
     /// Returns the interval of the contacts found last, or that of the bodies.

@@ -141,8 +141,7 @@ impl<T: Real> Subsurface<'_, T> {
             }
         }
         let [x, zero] = [self.hull().left, T::zero()];
-        let best = best.unwrap_or(StressPeak { x, depth: zero, value: zero });
-        Ok(StressPeak { x: self.solution.gap.folded(best.x), ..best })
+        Ok(best.unwrap_or(StressPeak { x, depth: zero, value: zero }))
     }
 
     /// Lists places on the surface of a contact: its grid of pressures, and the places where stress
@@ -251,6 +250,7 @@ impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V>
             Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => -T::one(),
             Err(error) => return Err(error),
         };
+        let x = solution.gap.folded(x);
         Ok((place, StressPeak { x, depth, value }))
     }
 

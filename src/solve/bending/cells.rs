@@ -51,20 +51,16 @@ impl<T: Real> Bending<'_, '_, '_, T> {
 
     /// Returns the end of the bodies that contacts reach with no corner to hold them.
     fn end_reached(&self, coarse: &Coarse<T>) -> Option<Side> {
-        Side::BOTH.into_iter().find(|&side| coarse.reaches[side] && self.is_free_end(side))
-    }
-
-    /// Tells whether the bodies end here with no corner to hold a contact.
-    pub(super) fn is_free_end(&self, side: Side) -> bool {
-        self.contact.edges[side] == Edge::Free
+        let edges = self.contact.edges;
+        Side::BOTH.into_iter().find(|&side| coarse.reaches[side] && edges[side] == Edge::Free)
     }
 
     /// Returns the error for contacts that reach an end. What the bodies bear in others is not
     /// known: cells tell it to a tenth.
-    pub(super) fn too_short(&self, side: Side) -> ContactError<T> {
-        let Some((load, _)) = line_of_load(self.control) else { return self.stuck() };
-        let end = self.contact.ends_of(&self.gap)[side];
-        Capacity::nothing(end).too_short(load).of_any_load()
+    pub(super) fn too_short(&self, end: T) -> ContactError<T> {
+        let [load, half_width, peak] = [T::of(f64::NAN); 3];
+        let unknown = Capacity { half_width, end, load, peak };
+        line_of_load(self.control).map_or_else(|| self.stuck(), |of| unknown.too_short(of.0))
     }
 
     /// Returns the contacts of cells: of those around a contact that is too wide for the layer, as

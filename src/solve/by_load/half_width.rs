@@ -38,6 +38,7 @@ impl<T: Real> Quantity<T> for HalfWidth {
     }
 
     fn none(&self, search: &ByLoad<'_, '_, '_, T>) -> Option<ContactError<T>> {
-        search.widest().map(|widest| widest.too_wide(search.wanted))
+        let (widest, _) = search.widest().filter(|_| search.kernel.is_some())?;
+        Some(widest.too_wide(search.wanted))
     }
 }
