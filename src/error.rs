@@ -80,12 +80,6 @@ impl<T: Real> ContactError<T> {
         self
     }
 
-    /// Tells whether bodies with this error touch first at an end, and bear nothing.
-    pub(crate) fn is_of_nothing(&self) -> bool {
-        let zero = T::zero();
-        matches!(self, Self::Solve(SolveError::DomainTooShort { carried, .. }) if *carried == zero)
-    }
-
     /// Tells whether a search for one contact may end with this error because the bodies touch in
     /// several places.
     pub(crate) fn may_be_several(&self) -> bool {

@@ -1,7 +1,7 @@
 //! Errors of a solve.
 
 use super::advice::{
-    SEVERAL, borne, hint, how_to_peak, how_to_press, how_to_touch, place, with_peak,
+    SEVERAL, at_peak, borne, hint, how_to_peak, how_to_press, how_to_touch, place,
 };
 use crate::rounded::{apart, six, span};
 use crate::search::SearchError;
@@ -111,7 +111,7 @@ pub enum SolveError<T: Real> {
     #[error(
         "a contact of half-width {wanted} would leave the bodies at x = {end}: there is room for \
          {half_width}, which carries {load}{}; extend the domain or lower the half-width{}",
-        with_peak(*peak), hint(*kappa_is_default), wanted = apart(*wanted, &[*half_width]), end = six(*end),
+        at_peak(*peak), hint(*kappa_is_default), wanted = apart(*wanted, &[*half_width]), end = six(*end),
         half_width = apart(*half_width, &[*wanted]), load = six(*load)
     )]
     HalfWidthTooLarge {

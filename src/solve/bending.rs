@@ -363,8 +363,11 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     /// Tells whether bodies with this error, not yet bent, touch first at an end or all along: they
     /// do so on any layer.
     fn bears_nothing(&mut self, error: &ContactError<T>) -> Fallible<T, bool> {
-        let ContactError::Solve(SolveError::NoFirstContact { slope, .. }) = error else {
-            return Ok(error.is_of_nothing());
+        use SolveError::{DomainTooShort, NoFirstContact};
+        let slope = match error {
+            ContactError::Solve(NoFirstContact { slope, .. }) => slope,
+            ContactError::Solve(DomainTooShort { carried, .. }) => return Ok(carried.is_zero()),
+            _ => return Ok(false),
         };
         let place = first_touch(self.contact, self.work.workspace, self.work.cost)?;
         let (ends, edges) = (self.contact.ends(), self.contact.edges);
@@ -431,8 +434,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         workspace.bent = id;
         (workspace.report, workspace.cell_work) = (Report::new(), 0);
         let found = find_under(&scene, control, self.work)?;
-        let half_width = found.interval.half_width();
-        if let Err(error) = check_width(&self.kernel, half_width, MOST_TIMES) {
+        if let Err(error) = check_width(&self.kernel, found.interval.half_width(), MOST_TIMES) {
             self.work.workspace.keep(&[found.interval]);
             return Err(error);
         }

@@ -369,7 +369,6 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
         if self.kernel.is_some() {
             // What half-planes, or bodies with the bend of another load, bear is no bound.
             return match *error {
-                _ if error.is_of_nothing() => Err(error.clone()),
                 ContactError::Solve(Bending { .. } | DomainTooShort { .. })
                 | ContactError::Input(InputError::LayerTooThin { .. }) => {
                     Ok(ControlFlow::Continue(unknown(load, infinite)))
