@@ -494,6 +494,10 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (lambda: roller(slices=10**30), "InvalidRollerError", {"slices": 10**30, "length": 2.0}),
     # Impossible numbers, where they are given.
     (lambda: lc.Reference.depth(-1.0), "InvalidReferenceError", {"length": -1.0}),
+    (lambda: lc.Reference("depth", -1), "InvalidReferenceError", {"length": -1.0}),
+    (lambda: lc.Reference("disc", 0.0), "InvalidReferenceError", {"length": 0.0}),
+    (lambda: lc.Reference("length", math.inf), "InvalidReferenceError", {"length": math.inf}),
+    (lambda: lc.Reference("depth", math.nan), "InvalidReferenceError", {}),
     (lambda: lc.Reference.disc(0.0), "InvalidReferenceError", {"length": 0.0}),
     (lambda: lc.Reference.length(math.inf), "InvalidReferenceError", {"length": math.inf}),
     (lambda: lc.Layer(STEEL, -1.0, STEEL), "InvalidThicknessError", {"body": "", "thickness": -1.0}),
@@ -713,6 +717,8 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     (lambda: ANY.Curve(2.0, scalar_cosh), TypeError, ("domain is 2.0", "two numbers")),
     (lambda: contact(start=0.5), TypeError, ("start is 0.5", "two numbers")),
     (lambda: ANY.Parabola("10", (-1, 1)), TypeError, ("radius is '10'", "give one number")),
+    (lambda: ANY.Reference("disc", "10"), TypeError, ("radius is '10'", "give one number")),
+    (lambda: ANY.Reference("disk", 10.0), ValueError, ("a reference is 'disk'", "'disc'")),
     (lambda: ANY.Curve((-1, 1), scalar_cosh), TypeError, ("array of k", "np.cosh for math.cosh")),
     (lambda: ANY.Curve((-1, 1), with_an_if), TypeError, ("array of k", "np.where for if")),
     (

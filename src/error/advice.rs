@@ -30,11 +30,21 @@ pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, pea
             "the bodies touch first at their end x = {x}, and carry nothing of the load {asked}: extend the domain"
         );
     }
+    let leave = format!("the contact would leave the bodies at x = {x}");
+    if carried.partial_cmp(&carried).is_none() {
+        return format!("{leave} under the load {asked}: extend the domain, lower the load");
+    }
     let (carried, half_width, peak) = (apart(carried, &[load]), six(half_width), six(peak));
     format!(
-        "the contact would leave the bodies at x = {x}: up to there they carry {carried} of the load {asked}, with \
-         half-width {half_width} and peak pressure {peak}; extend the domain, lower the load"
+        "{leave}: up to there they carry {carried} of the load {asked}, with half-width {half_width} and peak pressure \
+         {peak}; extend the domain, lower the load"
     )
+}
+
+/// Names the peak pressure of a contact, if it is known.
+pub(super) fn at_peak<T: Real>(peak: T) -> String {
+    let is_known = peak.partial_cmp(&peak).is_some();
+    if is_known { format!(" with peak pressure {}", six(peak)) } else { String::new() }
 }
 
 /// Returns the remedy for an approach that a table does not cover.
@@ -86,8 +96,8 @@ pub(super) fn hint(kappa_is_default: bool) -> &'static str {
 pub(super) fn how_to_touch<T: Real>([left, right]: [T; 2]) -> &'static str {
     let zero = T::zero();
     if left.is_zero() && right.is_zero() {
-        "these bodies are parallel: two flats need Edge::Fixed or FreeUntil at their corners; of two like curves \
-         one is to be flipped (Placement::flipped)"
+        "these bodies are parallel, so that they touch all along: two flats need Edge::Fixed or FreeUntil at their \
+         corners; of two like curves one is to be flipped (Placement::flipped), or given another radius"
     } else if left >= zero && right <= zero {
         "these bodies bulge away from each other: flip one of them (Placement::flipped), swap them, or give \
          a convex body a smaller radius than the hollow that it lies in"

@@ -1,6 +1,8 @@
 //! Errors of a solve.
 
-use super::advice::{SEVERAL, borne, hint, how_to_peak, how_to_press, how_to_touch, place};
+use super::advice::{
+    SEVERAL, at_peak, borne, hint, how_to_peak, how_to_press, how_to_touch, place,
+};
 use crate::rounded::{apart, six, span};
 use crate::search::SearchError;
 use crate::{Body, Ends, Interval, Real};
@@ -91,7 +93,8 @@ pub enum SolveError<T: Real> {
         end: T,
         /// Load carried by the largest contact that stays on the bodies, or by several contacts of
         /// the largest possible width. It does not depend on the load asked for. Zero where the
-        /// bodies touch at this end first.
+        /// bodies touch at this end first; NaN, like half-width and peak, where it is not known, as
+        /// of bodies with a layer or another kernel.
         carried: T,
         /// The load asked for.
         load: T,
@@ -107,10 +110,9 @@ pub enum SolveError<T: Real> {
     /// A contact of the half-width asked for reaches beyond a body.
     #[error(
         "a contact of half-width {wanted} would leave the bodies at x = {end}: there is room for \
-         {half_width}, which carries {load} with peak pressure {peak}; extend the domain or lower \
-         the half-width{}",
-        hint(*kappa_is_default), wanted = apart(*wanted, &[*half_width]), end = six(*end),
-        half_width = apart(*half_width, &[*wanted]), load = six(*load), peak = six(*peak)
+         {half_width}, which carries {load}{}; extend the domain or lower the half-width{}",
+        at_peak(*peak), hint(*kappa_is_default), wanted = apart(*wanted, &[*half_width]), end = six(*end),
+        half_width = apart(*half_width, &[*wanted]), load = six(*load)
     )]
     HalfWidthTooLarge {
         /// The half-width asked for.
@@ -121,7 +123,8 @@ pub enum SolveError<T: Real> {
         end: T,
         /// Load that it carries.
         load: T,
-        /// Its peak pressure; infinite where it is held at a corner, or where the slope jumps.
+        /// Its peak pressure; infinite where it is held at a corner, or where the slope jumps; NaN
+        /// of bodies with a layer or another kernel, whose contact is about the largest.
         peak: T,
         /// True if κ was left at its default of 1: then the stiffness may be missing.
         kappa_is_default: bool,

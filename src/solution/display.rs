@@ -22,7 +22,7 @@ fn place<T: Real>(x: T, width: T) -> T {
 }
 
 /// Writes contacts, load, largest pressure and quality in three lines, and a warning of bodies that
-/// [conform](Solution::conformity) or else [are steep](Solution::is_steep); with six digits, or as
+/// [conform](Solution::conformity) or [are steep](Solution::is_steep); with six digits, or as
 /// many as the precision (`{:.3}`).
 impl<T: Real> Display for Solution<'_, T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
@@ -92,7 +92,8 @@ impl<T: Real> Solution<'_, T> {
         }
         if let Some(conformity) = self.conformity() {
             write!(f, "\n{conformity}")?;
-        } else if self.is_steep() {
+        }
+        if self.is_steep() {
             f.write_str(
                 "\nthe surfaces are steep (slopes above 0.3), so less like half-planes: do all units go together?",
             )?;

@@ -86,8 +86,6 @@ pub(super) struct Coarse<T: Real> {
     pub intervals: Vec<Interval<T>>,
     /// Angle by which body 2 is turned counter-clockwise.
     pub tilt: T,
-    /// Largest pressure.
-    pub peak: T,
     /// Flags: the contact reaches this end of the range.
     pub reaches: Ends<bool>,
 }

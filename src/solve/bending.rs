@@ -15,12 +15,13 @@ mod cells;
 mod row;
 
 use super::by_load::{self, ByApproach, HalfWidth, Peak};
-use super::{Contact, Control, Work, find_under};
+use super::{Contact, Control, Work, find_under, first_touch};
 use crate::gap::Gap;
 use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
 use crate::solution::{ContactState, Integrals, Report, Solved};
 use crate::{ContactError, Edge, Ends, Fallible, InputError, Interval, Real, Side, SolveError};
 use cells::line_of_load;
+use row::merged;
 
 /// Contacts solved before the search is given up.
 const MAX_SOLVES: usize = 120;
@@ -94,6 +95,9 @@ pub(super) fn find<'b, T: Real>(
         let bodies = contact.elasticity()?.ok_or(InputError::NoMaterials)?;
         let by = ByApproach { references, bodies };
         return by_load::find_of(contact, Some(kernel), &by, ("approach", approach), work);
+    }
+    if let Control::HalfWidth(half_width) = control {
+        check_width(kernel, half_width, 1.0)?;
     }
     let mut found = from_last(contact, kernel, control, work);
     // Where a row is about to touch all over, the contacts under a lighter load are a start, and so
@@ -170,6 +174,16 @@ fn fills<T: Real>(kernel: &Kernel<'_, T>, half_width: T) -> bool {
     kernel.row.as_ref().is_some_and(|row| half_width + half_width >= row.period)
 }
 
+/// Refuses a contact that is some times too wide beside the kernel.
+fn check_width<T: Real>(kernel: &Kernel<'_, T>, half_width: T, times: f64) -> Fallible<T, ()> {
+    let Some(distance) = kernel.layer_distance() else { return Ok(()) };
+    let (ratio, limit) = (half_width / (T::of(0.5) * distance), T::of(THINNEST));
+    if ratio > T::of(times) * limit {
+        return Err(InputError::LayerTooThin { ratio, limit }.into());
+    }
+    Ok(())
+}
+
 /// Tells whether a search ends with this error: no other bend would help.
 fn ends<T: Real>(error: &ContactError<T>) -> bool {
     use SolveError::{BudgetSpent, Cancelled};
@@ -229,11 +243,9 @@ struct Bending<'s, 'w, 'b, T: Real> {
 
 /// Returns the interval of some pressures, from the first to the last.
 fn hull<T: Real>(spreads: &[Spread<T>]) -> Option<Interval<T>> {
-    let hull = |one: Interval<T>, on: Interval<T>| Interval {
-        left: one.left.min(on.left),
-        right: one.right.max(on.right),
-    };
-    spreads.iter().map(|spread| spread.on).reduce(hull)
+    let contacts = merged(spreads);
+    let [first, last] = [contacts.first()?, contacts.last()?];
+    Some(Interval { left: first.left, right: last.right })
 }
 
 /// Returns the ρ of rounding.
@@ -276,7 +288,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             }
             let is_least = self.is_least(residual, solved.found.error);
             if is_least && left == 0 {
-                self.check_width(solved.found.interval, 1.0)?;
+                check_width(&self.kernel, solved.found.interval.half_width(), 1.0)?;
                 if solved.is_checked {
                     let error = solved.found.error.map(|error| error + residual);
                     self.work.workspace.spreads = spreads;
@@ -314,7 +326,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
 
     /// Goes on from a solve that failed.
     fn recover(&mut self, error: ContactError<T>) -> Fallible<T, ()> {
-        if ends(&error) {
+        if ends(&error) || self.spreads.is_empty() && self.bears_nothing(&error)? {
             return Err(error);
         }
         self.is_checked = true;
@@ -332,7 +344,12 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn not_found(&mut self) -> ContactError<T> {
         let error = match (self.fault.take(), self.reaches) {
             (Some(fault), _) if self.fills(&fault) => self.complete(),
-            (_, Some(side)) => self.too_short(side),
+            (_, Some(side)) => Ok(self.too_short(self.contact.ends_of(&self.gap)[side])),
+            // What is too wide, or bears this load, is the contact of half-planes.
+            (Some(ContactError::Input(InputError::LayerTooThin { .. })), _) => Ok(self.stuck()),
+            (Some(ContactError::Solve(SolveError::DomainTooShort { end, .. })), _) => {
+                Ok(self.too_short(end))
+            }
             (Some(fault), _) if self.target.is_empty() => Ok(fault),
             _ => Ok(self.stuck()),
         };
@@ -343,15 +360,19 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         SolveError::Bending { residual: self.before, solves: MAX_SOLVES }.into()
     }
 
-    /// Refuses a contact that is some times too wide beside the kernel.
-    fn check_width(&self, on: Interval<T>, times: f64) -> Fallible<T, ()> {
-        let Some(distance) = self.kernel.layer_distance() else { return Ok(()) };
-        let thickness = T::of(0.5) * distance;
-        let (ratio, limit) = (on.half_width() / thickness, T::of(THINNEST));
-        if ratio > T::of(times) * limit {
-            return Err(InputError::LayerTooThin { ratio, limit }.into());
-        }
-        Ok(())
+    /// Tells whether bodies with this error, not yet bent, touch first at an end or all along: they
+    /// do so on any layer.
+    fn bears_nothing(&mut self, error: &ContactError<T>) -> Fallible<T, bool> {
+        use SolveError::{DomainTooShort, NoFirstContact};
+        let slope = match error {
+            ContactError::Solve(NoFirstContact { slope, .. }) => slope,
+            ContactError::Solve(DomainTooShort { carried, .. }) => return Ok(carried.is_zero()),
+            _ => return Ok(false),
+        };
+        let place = first_touch(self.contact, self.work.workspace, self.work.cost)?;
+        let (ends, edges) = (self.contact.ends(), self.contact.edges);
+        let is_at = |side| edges[side] == Edge::Free && place == ends[side];
+        Ok(slope.iter().all(T::is_zero) || Side::BOTH.into_iter().any(is_at))
     }
 
     /// Takes the whole correction of a solve with this residual.
@@ -413,7 +434,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         workspace.bent = id;
         (workspace.report, workspace.cell_work) = (Report::new(), 0);
         let found = find_under(&scene, control, self.work)?;
-        if let Err(error) = self.check_width(found.interval, MOST_TIMES) {
+        if let Err(error) = check_width(&self.kernel, found.interval.half_width(), MOST_TIMES) {
             self.work.workspace.keep(&[found.interval]);
             return Err(error);
         }

@@ -50,6 +50,10 @@ const LEAST_STEP: f64 = 1.001;
 /// waves is 2 % of the period.
 const LARGEST_SHARE: f64 = 0.999;
 
+/// Factor from a load that bodies with a kernel bear to one that they do not, up to which a value
+/// may be out of reach.
+const NEARLY_ALL: f64 = 1.02;
+
 /// Largest factor between a load and the first one while the load is not enclosed.
 const MAX_FACTOR: f64 = 1e12;
 
@@ -88,6 +92,8 @@ struct Point<T> {
     load: T,
     value: T,
     rate: T,
+    /// Half-width of the contacts; NaN if they were not found.
+    half_width: T,
 }
 
 impl<T: Real> Point<T> {
@@ -220,6 +226,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
             load = self.inside(self.next(at), at.load);
             self.last = Some(at);
             let is_closed = match (self.low, self.high) {
+                (Some(low), Some(high)) if self.is_out_of_reach(low, high) => true,
                 (Some(low), Some(high)) => high.load <= low.load * (T::one() + T::epsilon().sqrt()),
                 _ => load > first * T::of(MAX_FACTOR) || load < first / T::of(MAX_FACTOR),
             };
@@ -296,7 +303,8 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                 }
                 known => known?,
             };
-            let at = Point { load, value, rate };
+            let half_width = found.interval.half_width();
+            let at = Point { load, value, rate, half_width };
             let low = self.low.filter(|low| self.follows && low.load < load);
             let is_close = |low: &Point<T>| load <= low.load * T::of(LEAST_STEP);
             let mean = |low: Point<T>| (value - low.value) / (load - low.load);
@@ -356,7 +364,8 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
             Bending, CompleteContact, DomainTooShort, Falls, LiftsOff, NoEquilibrium,
         };
         let (wanted, infinite) = (self.wanted, T::one() / T::zero());
-        let unknown = |load: T, value: T| Point { load, value, rate: T::zero() };
+        let half_width = T::of(f64::NAN);
+        let unknown = |load: T, value: T| Point { load, value, rate: T::zero(), half_width };
         if self.kernel.is_some() {
             // What half-planes, or bodies with the bend of another load, bear is no bound.
             return match *error {
@@ -409,6 +418,23 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
             }
             None => SolveError::NoEquilibrium { half_width, near }.into(),
         })
+    }
+
+    /// Tells whether bodies with a kernel bear less than the value takes, by its rate under nearly
+    /// all that they bear.
+    fn is_out_of_reach(&self, low: Point<T>, high: Point<T>) -> bool {
+        let ratio = high.load / low.load;
+        let is_close = self.kernel.is_some() && ratio <= T::of(NEARLY_ALL);
+        is_close && !high.value.is_finite() && self.next(low) > ratio * high.load
+    }
+
+    /// Returns the widest contacts found, and the value there, if wider ones leave the bodies.
+    fn widest(&self) -> Option<(Capacity<T>, T)> {
+        let Point { load, value, half_width, .. } = self.low.filter(|low| low.value > T::zero())?;
+        let Some(ContactError::Solve(SolveError::DomainTooShort { end, .. })) = self.fault else {
+            return None;
+        };
+        Some((Capacity { half_width, end, load, peak: T::of(f64::NAN) }, value))
     }
 
     /// Returns the interval of the contacts found last, or that of the bodies.

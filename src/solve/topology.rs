@@ -21,9 +21,9 @@ use super::newton::several::{self, Besides, NewtonSeveral, put};
 use super::signorini_check::step_of_heights;
 use super::single_contact::Single;
 use super::{Contact, Work, settle};
-use crate::gap::{Asked, Survey};
+use crate::gap::{Asked, Sampler, Survey};
 use crate::solution::{ContactState, Start};
-use crate::{ContactError, Ends, Fallible, Interval, Real, Side, SolveError};
+use crate::{ContactError, Edge, Ends, Fallible, Interval, Real, Side, SolveError};
 pub(super) use bears::up_to_corner;
 pub(crate) use workspace::Workspace;
 
@@ -295,6 +295,16 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     fn look(&mut self) -> Fallible<T, &Survey<T>> {
         let asked = asked_by(&self.conditions);
         self.work.workspace.look(&self.contact.gap, asked, self.work.cost)
+    }
+
+    /// Refuses bodies that are parallel all along, to rounding: no free contact ends there.
+    pub(super) fn check_parallel(&mut self) -> Fallible<T, ()> {
+        let Contact { gap, edges, .. } = self.contact;
+        let (mut sampler, x, slope) = (Sampler::default(), gap.range(), [T::zero(); 2]);
+        let may_be = *edges == Ends::both(Edge::Free) && !gap.is_repeated();
+        let is = may_be && self.look()?.is_parallel(|x| sampler.height(gap, x).ok());
+        *self.work.cost += sampler.cost;
+        if is { Err(SolveError::NoFirstContact { x, slope }.into()) } else { Ok(()) }
     }
 
     /// Tells whether the bodies turn until the load acts at a given place.

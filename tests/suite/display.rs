@@ -66,6 +66,22 @@ fn places_that_are_zero_to_rounding_are_written_so() {
     assert!(!text.to_string().contains(" at x = 0\n"), "{text}");
 }
 
+/// Bodies that conform as far as this are steep, too, and units may be wrong in both.
+#[test]
+fn bodies_that_conform_and_are_steep_are_told_both() {
+    let circle = |radius| Ellipse::circle(radius, [-1.5, 1.5]).unwrap();
+    let (hole, pin) = (circle(10.02), circle(10.0));
+    let contact = Contact::new(&hole, &pin).unwrap().contact_modulus(115e3);
+    for (load, expected) in [(240.0, [true, true]), (60.0, [true, false]), (10.0, [false, false])] {
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        assert_eq!([solution.conformity().is_some(), solution.is_steep()], expected, "{load}");
+        let text = solution.to_string();
+        let told =
+            ["the bodies conform", "do all units go together?"].map(|word| text.contains(word));
+        assert_eq!(told, expected, "{text}");
+    }
+}
+
 #[test]
 fn several_contacts_and_given_limits() {
     let text = on_flat(quartic(-2.0, 2.0)).solve(Control::Load(0.5)).unwrap().to_string();

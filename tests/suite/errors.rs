@@ -7,8 +7,9 @@ use approx::assert_relative_eq;
 use common::{NanSafe, graph, on_flat, parabola};
 use linecontact::search::{Brent, SearchError, StoppingCriteria};
 use linecontact::{
-    Attempt, Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, EdgePressure, Flat,
-    InputError, Interval, Midpoint, Outcome, ParametricProfile, ProfileError, SolveError, Start,
+    Attempt, Base, Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, EdgePressure,
+    Flat, Foundation, InputError, Interval, Layer, Material, Midpoint, Outcome, ParametricProfile,
+    PlaneState, ProfileError, Reference, References, SolveError, Start,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
@@ -490,4 +491,49 @@ fn an_attempt_that_an_error_has_ended_is_reported() {
         }
     }
     assert!(goes_on > 0);
+}
+
+/// A roller in a groove of its own radius: no free contact ends anywhere, whatever the ends of both
+/// arcs. That is said at once, and not after searches in the noise of rounding.
+#[test]
+fn a_roller_in_a_groove_of_its_radius_touches_all_along() {
+    let references =
+        References { x: 0.0, lower: Reference::Depth(20.0), upper: Reference::Depth(20.0) };
+    let controls = [
+        Control::Load(100.0),
+        Control::Load(1e5),
+        Control::HalfWidth(1.0),
+        Control::PeakPressure(100.0),
+        Control::Approach { approach: 0.01, references },
+        Control::Moment { load: 100.0, moment: 1.0, about: 0.0 },
+    ];
+    let (steel, coat) = (Material::elastic(210e3, 0.3), Material::elastic(300e3, 0.2));
+    let coating = Layer { material: coat, thickness: 0.5, base: Base::HalfPlane(steel) };
+    let asked = Arc::new(AtomicUsize::new(0));
+    let arc = |from: f64, to: f64| {
+        let counter = asked.clone();
+        Curve::new([from, to], move |angle: f64| {
+            counter.fetch_add(1, Ordering::Relaxed);
+            let (sin, cos) = angle.sin_cos();
+            CurvePoint { x: 10.0 * sin, y: 10.0 * (1.0 - cos), dx: 10.0 * cos, dy: 10.0 * sin }
+        })
+    };
+    let arcs = [[-0.5, 0.5, -1.0, 1.0], [-0.4, 0.6, -1.2, 1.0], [-1.0, 1.0, -0.3, 0.5]];
+    for [from, to, other_from, other_to] in arcs {
+        let (groove, roller) = (arc(from, to), arc(other_from, other_to));
+        let contact = Contact::new(&groove, &roller).unwrap();
+        for lower in [Foundation::from(steel), Foundation::from(coating)] {
+            let contact = contact.clone().materials(lower, steel, PlaneState::Strain);
+            for control in controls {
+                let error = contact.solve(control).map(|_| ()).unwrap_err();
+                let ContactError::Solve(SolveError::NoFirstContact { slope, .. }) = error else {
+                    panic!("{from} {to} {control:?}: {error}")
+                };
+                assert!(slope == [0.0; 2] && error.to_string().contains("touch all along"));
+            }
+        }
+    }
+    let asked = asked.load(Ordering::Relaxed);
+    println!("{asked} values");
+    assert!(asked < 500_000, "{asked} values");
 }

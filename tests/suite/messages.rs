@@ -547,6 +547,9 @@ fn messages_have_the_digits_that_tell_something() {
     assert!(some.contains("FreeUntil(0.987654321012)"), "{some}");
     assert!(none.contains("touch first at their end x = 0.987654,"), "{none}");
     assert!(none.contains("FreeUntil(0.987654321012)"), "{none}");
+    let unknown = message([f64::NAN; 3]);
+    assert!(unknown.contains("x = 0.987654 under the load 0.5: extend"), "{unknown}");
+    assert!(unknown.contains("FreeUntil(") && !unknown.contains("NaN"), "{unknown}");
     let flats = Contact::new(&Flat, &Flat)
         .and_then(|contact| contact.solve(Control::Load(1.0)).map(|_| ()));
     let message = flats.unwrap_err().to_string();

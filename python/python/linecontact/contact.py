@@ -263,7 +263,12 @@ class EdgePressure(NamedTuple):
         return cls(0.0, 0.0, distance, distance, tolerance, tolerance)
 
 
-class Reference(NamedTuple):
+class _Reference(NamedTuple):
+    kind: Literal["depth", "disc", "length"]
+    value: float
+
+
+class Reference(_Reference):
     """The reference point for the approach of a body, created by `depth`, `disc` or `length`.
 
     Examples
@@ -273,13 +278,20 @@ class Reference(NamedTuple):
     Reference(kind='disc', value=10.0)
     """
 
-    kind: Literal["depth", "disc", "length"]
-    value: float
+    __slots__ = ()
+
+    def __new__(cls, kind: Literal["depth", "disc", "length"], value: float) -> Reference:
+        names = {"depth": "depth", "disc": "radius", "length": "length"}
+        length = as_number(value, names[one_of(kind, "the kind of a reference", tuple(names))])
+        if not 0.0 < length < math.inf:
+            says = f"a reference at {length:g}: its depth, radius or length must be positive and finite"
+            raise refusal("InvalidReferenceError", says, length=length)
+        return super().__new__(cls, kind, length)
 
     @classmethod
     def depth(cls, depth: float) -> Reference:
         """Creates a reference at this depth below the surface: a length."""
-        return cls("depth", _length(depth, "depth"))
+        return cls("depth", depth)
 
     @classmethod
     def disc(cls, radius: float) -> Reference:
@@ -287,20 +299,12 @@ class Reference(NamedTuple):
 
         The disc is loaded at the point opposite to the contact.
         """
-        return cls("disc", _length(radius, "radius"))
+        return cls("disc", radius)
 
     @classmethod
     def length(cls, length: float) -> Reference:
         """Creates a reference by ℓ in `2 ln(ℓ/|x - s|)`, a length: for any other constant."""
-        return cls("length", _length(length, "length"))
-
-
-def _length(given: float, name: str) -> float:
-    length = as_number(given, name)
-    if not 0.0 < length < math.inf:
-        says = f"a reference at {length:g}: its depth, radius or length must be positive and finite"
-        raise refusal("InvalidReferenceError", says, length=length)
-    return length
+        return cls("length", length)
 
 
 class References(NamedTuple):

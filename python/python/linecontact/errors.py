@@ -793,7 +793,8 @@ class DomainTooShortError(SolveError):
     carried : float
         Load carried by the largest contact that stays on the bodies, or by several contacts of the
         largest possible width. It does not depend on the load asked for. Zero where the bodies
-        touch at this end first.
+        touch at this end first; NaN, like half-width and peak, where it is not known, as of bodies
+        with a layer or another kernel.
     load : float
         The load asked for.
     half_width : float
@@ -828,7 +829,8 @@ class HalfWidthTooLargeError(SolveError):
     load : float
         Load that it carries.
     peak : float
-        Its peak pressure; infinite where it is held at a corner, or where the slope jumps.
+        Its peak pressure; infinite where it is held at a corner, or where the slope jumps; NaN of
+        bodies with a layer or another kernel, whose contact is about the largest.
     kappa_is_default : bool
         True if κ was left at its default of 1: then the stiffness may be missing.
     """

@@ -379,7 +379,7 @@ def _field(
         shear = slip.stress("lower", x, rows[:, None]).max_shear()
     try:
         found = solution.max_shear(body=body) if slip is None else slip.max_shear("lower")
-        largest: dict[str, Any] = found._replace(x=_in_period(solution, found.x))._asdict()
+        largest: dict[str, Any] = found._asdict()
         top = largest["value"]
     except SingularError as infinite:
         largest = {"x": infinite.x, "depth": 0.0, "value": None}
@@ -392,12 +392,6 @@ def _field(
         "shear": _base64(np.round(shear / unit).astype("<u2")),
     }
     return {"shear": largest, "shear_axis": top, "field": field}
-
-
-def _in_period(solution: Solution, x: float) -> float:
-    """Returns the same place in the period about the contacts."""
-    (left, right), after = covered(solution), period(solution.contact)
-    return x if after is None or left <= x <= right else x - after * math.floor((x - left) / after)
 
 
 def _graded(span: Range, centres: FloatArray, widths: FloatArray, count: int) -> FloatArray:

@@ -157,7 +157,9 @@ class FiniteRoller:
         try:
             self._roller = _native.FiniteRoller(table._table, self._made_of[1], whole, relief._profile)
         except InvalidRollerError as error:
-            says = str(error).replace(f" in {whole} slices", f" in {count} slices")
+            if whole == count:
+                raise
+            says = f"a roller of length {error.length:.6g} in {count} slices: they must be from 1 to {error.most}"
             raise refusal("InvalidRollerError", says, length=error.length, slices=count, most=error.most) from None
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -293,8 +293,7 @@ def _units_in_doubt(rows: Sequence[Row]) -> list[str]:
     notes = []
     if solutions and not solutions[0].contact.has_modulus:
         notes.append("no modulus is given: pressures are those of kappa = 1")
-    # Bodies that conform are steep in any units, and told so.
-    if steep := sum(solution.is_steep and solution.conformity is None for solution in solutions):
+    if steep := sum(solution.is_steep for solution in solutions):
         where = f" in {steep} of {len(rows)}" if len(rows) > 1 else ""
         notes.append(f"slopes exceed 0.3{where}, too steep for half-planes: check the units")
     return notes

@@ -79,6 +79,15 @@ impl<T: Real> Survey<T> {
         self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body))
     }
 
+    /// Tells whether the gap, by its own heights, is the same wherever either body was sampled, to
+    /// the rounding of the highest place, as a formula may have added terms of its size.
+    pub fn is_parallel(&self, mut height: impl FnMut(T) -> Option<T>) -> bool {
+        let size = self.nodes.iter().fold(T::zero(), |most: T, node| most.max(node.size));
+        let (rounding, first) = (T::of(64.0) * T::epsilon() * size, height(self.nodes[0].x));
+        let mut off = |x| Some((height(x)? - first?).abs());
+        self.nodes.iter().all(|node| off(node.x).is_some_and(|off| off <= rounding))
+    }
+
     /// Returns the slope of the gap at x, of bodies that are not turned, as far as it is known; at
     /// a breakpoint the slope on its right.
     pub fn slope(&self, gap: &Gap<'_, T>, x: T) -> T {

@@ -250,6 +250,7 @@ impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V>
             Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => -T::one(),
             Err(error) => return Err(error),
         };
+        let x = solution.gap.folded(x);
         Ok((place, StressPeak { x, depth, value }))
     }
 

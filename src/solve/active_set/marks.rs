@@ -1,6 +1,6 @@
 //! Cells in which contacts are not yet resolved, and the contacts that cells show.
 
-use super::{ActiveSet, Cell, Coarse, MAX_OF_KERNEL};
+use super::{ActiveSet, Coarse, MAX_OF_KERNEL};
 use crate::{Ends, Interval, Real};
 
 /// Least width of the cells at a narrow gap in a contact, as a share of the contact.
@@ -149,9 +149,7 @@ impl<T: Real> ActiveSet<'_, T> {
             right: runs.last().is_some_and(|run| run[1] == last),
         };
         let tilt = -self.slope * self.load / (self.kappa * (self.range[1] - self.range[0]));
-        let pressures = self.cells.iter().map(Cell::pressure);
-        let peak = self.load * pressures.fold(T::zero(), |most, pressure| most.max(pressure));
-        Coarse { intervals, tilt, peak, reaches }
+        Coarse { intervals, tilt, reaches }
     }
 
     /// Returns the runs as intervals.

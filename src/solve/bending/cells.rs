@@ -5,7 +5,7 @@
 //! singular edges, has pressures whose bend fits them. From there on the limits are moved as by
 //! Newton's method for the whole equation.
 
-use super::Bending;
+use super::{Bending, check_width};
 use crate::gap::Sampler;
 use crate::kernel::{Given, Kept, at_least, pressed};
 use crate::solve::active_set::{Coarse, FIRST_CELLS, LENGTH, NotFound, Scene, active_set};
@@ -14,11 +14,6 @@ use crate::{ContactError, Control, Edge, Ends, Fallible, InputError, Real, Side}
 
 /// Factor by which cells may be wrong in a contact that is too wide.
 const DOUBT: f64 = 1.01;
-
-/// Share of a load that is too large from which another one is sought, and the ratio of those that
-/// enclose what is borne.
-const FIRST_SHARE: f64 = 0.1;
-const CLOSE: f64 = 1.005;
 
 /// Load and the place where it acts, if the bodies turn.
 type Load<T> = (T, Option<T>);
@@ -32,7 +27,7 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         if self.reaches.is_some() && self.kernel.row.is_some() {
             return Ok(false);
         }
-        self.check_width(coarse.hull(), DOUBT)?;
+        check_width(&self.kernel, coarse.hull().half_width(), DOUBT)?;
         let (kappa, gap, contacts) = (self.contact.kappa, &self.gap, &coarse.intervals);
         let kept = if at.is_some() { Kept::Moment(kappa) } else { Kept::Load };
         let loads = [Some(load), at.map(|at| load * at)];
@@ -60,24 +55,12 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         Side::BOTH.into_iter().find(|&side| coarse.reaches[side] && edges[side] == Edge::Free)
     }
 
-    /// Returns the error for contacts that reach an end, with what the bodies bear in others.
-    pub(super) fn too_short(&mut self, side: Side) -> Fallible<T, ContactError<T>> {
-        let Some((load, at)) = line_of_load(self.control) else { return Ok(self.stuck()) };
-        let end = self.contact.ends_of(&self.gap)[side];
-        let (mut borne, mut high) = (Capacity::nothing(end), load);
-        while high > T::epsilon() * load && high > T::of(CLOSE) * borne.load {
-            let low = if borne.load.is_zero() { T::of(FIRST_SHARE) * high } else { borne.load };
-            let next = low.sqrt() * high.sqrt();
-            let coarse = self.coarse((next, at))?;
-            match coarse.filter(|coarse| self.end_reached(coarse).is_none()) {
-                Some(coarse) => {
-                    let (half_width, peak) = (coarse.hull().half_width(), coarse.peak);
-                    borne = Capacity { half_width, end, load: next, peak };
-                }
-                None => high = next,
-            }
-        }
-        Ok(borne.too_short(load))
+    /// Returns the error for contacts that reach an end. What the bodies bear in others is not
+    /// known: cells tell it to a tenth.
+    pub(super) fn too_short(&self, end: T) -> ContactError<T> {
+        let [load, half_width, peak] = [T::of(f64::NAN); 3];
+        let unknown = Capacity { half_width, end, load, peak };
+        line_of_load(self.control).map_or_else(|| self.stuck(), |of| unknown.too_short(of.0))
     }
 
     /// Returns the contacts of cells: of those around a contact that is too wide for the layer, as

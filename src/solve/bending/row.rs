@@ -106,7 +106,7 @@ fn widest_gap<T: Real>(contacts: &[Interval<T>], period: T) -> [T; 2] {
 }
 
 /// Lists the intervals of pressures from left to right; those before and after a step overlap.
-fn merged<T: Real>(spreads: &[Spread<T>]) -> Vec<Interval<T>> {
+pub(super) fn merged<T: Real>(spreads: &[Spread<T>]) -> Vec<Interval<T>> {
     let mut ends: Vec<Interval<T>> = spreads.iter().map(|spread| spread.on).collect();
     ends.sort_by(|one, other| one.left.partial_cmp(&other.left).unwrap_or(Ordering::Equal));
     ends.dedup_by(|next, last| {

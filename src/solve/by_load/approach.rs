@@ -8,7 +8,7 @@
 //! length, the logarithm of their capacity is subtracted, which grows. (Of layers this is not
 //! proved: the load that is found need not be the only one with its approach.)
 
-use super::{ByLoad, Point, Quantity, Value};
+use super::{ByLoad, Capacity, Quantity, Value};
 use crate::material::Elasticity;
 use crate::solution::{Approaching, ContactState};
 use crate::solve::Contact;
@@ -40,10 +40,7 @@ impl<T: Real> Quantity<T> for ByApproach<T> {
     }
 
     fn none(&self, search: &ByLoad<'_, '_, '_, T>) -> Option<ContactError<T>> {
-        let Point { load, value: approach, .. } = search.low.filter(|low| low.value > T::zero())?;
-        let Some(ContactError::Solve(SolveError::DomainTooShort { .. })) = search.fault else {
-            return None;
-        };
+        let (Capacity { load, .. }, approach) = search.widest()?;
         Some(SolveError::ApproachTooLarge { wanted: search.wanted, approach, load }.into())
     }
 }

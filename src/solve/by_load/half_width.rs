@@ -36,4 +36,9 @@ impl<T: Real> Quantity<T> for HalfWidth {
     fn of_widest(&self, wanted: T, widest: &Capacity<T>) -> Option<(T, ContactError<T>)> {
         Some((widest.half_width, widest.too_wide(wanted)))
     }
+
+    fn none(&self, search: &ByLoad<'_, '_, '_, T>) -> Option<ContactError<T>> {
+        let (widest, _) = search.widest().filter(|_| search.kernel.is_some())?;
+        Some(widest.too_wide(search.wanted))
+    }
 }

@@ -55,8 +55,11 @@ impl<T: Real> Quantity<T> for Peak {
     }
 
     fn none(&self, search: &ByLoad<'_, '_, '_, T>) -> Option<ContactError<T>> {
-        // It is too large under any load.
         let (wanted, half_width) = (search.wanted, search.hull().half_width());
+        if let Some((widest, peak)) = search.widest().filter(|_| search.kernel.is_some()) {
+            return Some(Capacity { peak, ..widest }.too_high(wanted));
+        }
+        // It is too large under any load.
         let found = search.high.map_or(T::of(f64::NAN), |high| high.value);
         let none = search.fault.is_none() && search.low.is_none();
         none.then(|| SolveError::NoPeak { wanted, half_width, found }.into())

@@ -69,6 +69,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Returns the contacts after all, or an error that says what the bodies bear, if the search
     /// has led to an end of them.
     pub(super) fn explain(&mut self, error: ContactError<T>) -> Fallible<T, ContactState<T>> {
+        self.check_parallel()?;
         // Of a single interval, no cells show that bodies that turn are too short.
         let is_blind = self.contact.single_interval && self.turns();
         let may_run_out = self.runs_out.is_some() || is_blind && is_nowhere(&error);

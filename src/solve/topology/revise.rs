@@ -234,6 +234,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Takes the contacts from a coarse active set, with more cells after each failure.
     pub(super) fn take_cells(&mut self) -> Fallible<T, ()> {
+        self.check_parallel()?;
         self.show_panels()?;
         // This number of cells has not failed yet.
         let (cells, conditions) = (self.cells, self.conditions);

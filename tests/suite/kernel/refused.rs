@@ -1,7 +1,7 @@
 //! What a layer or another kernel does not allow, and faults of kernels.
 
 use super::{RIGID, coated, half_plane, layer, parabola};
-use crate::common::Profile;
+use crate::common::{Profile, graph};
 use linecontact::search::Brent;
 use linecontact::{
     Base, Contact, ContactError, Control, Edge, EdgePressure, EvaluationError, Flat, InputError,
@@ -163,4 +163,119 @@ fn a_cancelled_solve_ends() {
         let is_cancelled = matches!(error, ContactError::Solve(SolveError::Cancelled { .. }));
         assert!(is_cancelled, "{control:?}: {error}");
     }
+}
+
+/// Asks a contact for a load, a width, a peak and an approach, and returns the errors.
+fn failures(contact: &Contact<'_, f64>, controls: [Control<f64>; 4]) -> [ContactError<f64>; 4] {
+    controls.map(|control| contact.solve(control).map(|_| ()).unwrap_err())
+}
+
+/// An upside-down body is told as such on a layer as on half-planes, and at once: in thousands of
+/// values of its curve, where a search for a layer takes millions.
+#[test]
+fn a_body_upside_down_is_named_on_a_layer_too() {
+    let asked = Arc::new(AtomicUsize::new(0));
+    let counter = asked.clone();
+    let body = graph(-2.0, 2.0, move |x| {
+        counter.fetch_add(1, Ordering::Relaxed);
+        [-0.05 * x * x, -0.1 * x]
+    });
+    let coating = layer(1.0, 0.3, 0.5, half_plane(0.3, 0.3));
+    let references =
+        References { x: 0.0, lower: Reference::Depth(20.0), upper: Reference::Depth(20.0) };
+    let contact = coated(&body, coating, Material::elastic(1.0, 0.3));
+    let controls = [
+        Control::Load(5e-4),
+        Control::HalfWidth(0.5),
+        Control::PeakPressure(0.002),
+        Control::Approach { approach: 0.01, references },
+    ];
+    for (error, control) in failures(&contact, controls).into_iter().zip(controls) {
+        let is_typed = matches!(error, ContactError::Solve(SolveError::NoFirstContact { .. }));
+        assert!(is_typed && error.to_string().contains("flip"), "{control:?}: {error}");
+    }
+    let turned = contact.solve(Control::Moment { load: 5e-4, moment: 1e-6, about: 0.0 });
+    let Err(ContactError::Solve(SolveError::DomainTooShort { carried, end, .. })) = turned else {
+        panic!("{:?}", turned.map(|_| ()))
+    };
+    assert!(carried == 0.0 && end.abs() == 2.0);
+    let asked = asked.load(Ordering::Relaxed);
+    println!("{asked} values");
+    assert!(asked < 100_000, "{asked} values");
+}
+
+/// Bodies with a layer bear another load than half-planes (here a fifth more): what these bear is
+/// not said, and what is said was solved.
+#[test]
+fn a_body_too_short_for_its_layer_is_told_no_load_of_half_planes() {
+    let body = graph(-2.0, 2.0, |x| [0.05 * x * x, 0.1 * x]);
+    let coating = layer(210e3, 0.3, 0.5, half_plane(70e3, 0.3));
+    let contact = coated(&body, coating, Material::elastic(210e3, 0.3));
+    assert!((contact.solve(Control::Load(21630.0)).unwrap().a() - 1.9966).abs() < 1e-3);
+    let references =
+        References { x: 0.0, lower: Reference::Depth(20.0), upper: Reference::Depth(20.0) };
+    let controls = [
+        Control::Load(31500.0),
+        Control::HalfWidth(3.0),
+        Control::PeakPressure(7e3),
+        Control::Approach { approach: 1.0, references },
+    ];
+    let [by_load, by_width, by_peak, by_approach] = failures(&contact, controls);
+    for load in [21840.0, 31500.0, 1e6] {
+        let error = contact.solve(Control::Load(load)).map(|_| ()).unwrap_err();
+        let ContactError::Solve(SolveError::DomainTooShort { carried, half_width, .. }) = error
+        else {
+            panic!("{load}: {error}")
+        };
+        assert!(carried.is_nan() && half_width.is_nan(), "{load}: {carried}, {half_width}");
+    }
+    let message = by_load.to_string();
+    assert!(message.contains("x = -2 under the load 31500:"), "{message}");
+    let is_near = |load: f64| load > 21200.0 && load < 21700.0;
+    match by_width {
+        ContactError::Solve(SolveError::HalfWidthTooLarge { half_width, load, .. }) => {
+            assert!(half_width > 1.97 && half_width <= 2.0 && is_near(load), "{half_width} {load}");
+        }
+        other => panic!("{other}"),
+    }
+    match by_peak {
+        ContactError::Solve(SolveError::PeakTooHigh { half_width, load, found, .. }) => {
+            let peak = contact.solve(Control::Load(load)).unwrap().peak().unwrap().pressure;
+            assert!((found / peak - 1.0).abs() < 1e-12 && is_near(load));
+            assert!(half_width > 1.97 && half_width <= 2.0);
+        }
+        other => panic!("{other}"),
+    }
+    match by_approach {
+        ContactError::Solve(SolveError::ApproachTooLarge { load, .. }) => assert!(is_near(load)),
+        other => panic!("{other}"),
+    }
+    // Close to what the bodies bear all is still found.
+    let widest = contact.solve(Control::HalfWidth(1.9999)).unwrap();
+    let peak = contact.solve(Control::PeakPressure(widest.peak().unwrap().pressure)).unwrap();
+    assert!((peak.load() / widest.load() - 1.0).abs() < 1e-9);
+}
+
+/// A contact wider than is solved is refused with its own ratio, and a peak that takes more than
+/// that in few solves.
+#[test]
+fn a_layer_too_thin_is_told_at_once_by_its_own_ratio() {
+    let asked = Arc::new(AtomicUsize::new(0));
+    let counter = asked.clone();
+    let body = graph(-2.0, 2.0, move |x| {
+        counter.fetch_add(1, Ordering::Relaxed);
+        [0.05 * x * x, 0.1 * x]
+    });
+    let contact = coated(&body, layer(210e3, 0.3, 0.005, half_plane(70e3, 0.3)), RIGID);
+    let ratio = |control| match contact.solve(control).map(|_| ()).unwrap_err() {
+        ContactError::Input(InputError::LayerTooThin { ratio, .. }) => ratio,
+        other => panic!("{other}"),
+    };
+    assert_eq!(ratio(Control::HalfWidth(0.75)), 150.0);
+    assert!(asked.swap(0, Ordering::Relaxed) < 10);
+    let unreachable = ratio(Control::PeakPressure(1e7));
+    let asked = asked.load(Ordering::Relaxed);
+    println!("{asked} values, {unreachable}");
+    assert!(asked < 10_000, "{asked} values");
+    assert!(unreachable > 100.0 && unreachable < 110.0, "{unreachable}");
 }

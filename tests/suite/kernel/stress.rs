@@ -425,6 +425,25 @@ fn stress_below_a_period() {
     }
 }
 
+/// The place of the largest stress lies in the period at hand, as each contact does, wherever the
+/// bodies are described.
+#[test]
+fn the_largest_stress_lies_in_the_period_at_hand() {
+    for from in [0.0, 0.3, 0.9] {
+        let body = waves(from, &[[0.01, 1.0, 0.0], [0.003, 2.0, 0.0]]);
+        let contact = row(&body);
+        for load in [1e-3, 0.01, 0.02, 0.023] {
+            let solution = contact.solve(Control::Load(load)).unwrap();
+            let below = solution.subsurface().unwrap();
+            let peak = below.max_shear().unwrap();
+            let aside = (peak.x - solution.hull().centre()).abs();
+            assert!(aside <= 0.5 * PERIOD, "{from} {load}: {peak:?}");
+            let there = below.at(peak.x, peak.depth).unwrap().max_shear();
+            assert!((there / peak.value - 1.0).abs() < 1e-12);
+        }
+    }
+}
+
 /// Friction below a period: on the surface `σ_x = -P - 2μ κ g/π`.
 #[test]
 fn friction_below_a_period() {
