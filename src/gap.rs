@@ -21,7 +21,7 @@ mod survey;
 use repeated::Repeated;
 pub(crate) use sample_near::{CurveSample, SampleCache, sample_near};
 pub use sampler::Sampler;
-pub(crate) use survey::{Asked, Guides, LowPoint, MAX_NEAR_UNCERTAINTY, Survey, crossing};
+pub(crate) use survey::{Asked, LowPoint, MAX_NEAR_UNCERTAINTY, Survey, crossing};
 
 use crate::kernel::Bend;
 use crate::profile::{Convexity, Piece};

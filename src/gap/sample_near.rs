@@ -38,7 +38,7 @@ pub(crate) struct SampleCache<T> {
     piece: Option<usize>,
     curve_samples: CurveSamples<T>,
     /// Approximate series of some pieces, for first estimates.
-    pub guides: [Option<(usize, Series<T>)>; 2],
+    pub guides: Vec<(usize, Series<T>)>,
     /// True if `X(k) = x` needs no solving: then there is no `Y`, and the samples are exactly at
     /// their targets.
     pub direct: bool,
@@ -46,13 +46,13 @@ pub(crate) struct SampleCache<T> {
 
 impl<T: Real> SampleCache<T> {
     pub fn new() -> Self {
-        let guides = [None, None];
-        Self { piece: None, curve_samples: CurveSamples::new(), guides, direct: false }
+        Self { piece: None, curve_samples: CurveSamples::new(), guides: Vec::new(), direct: false }
     }
 
     /// Forgets the samples, for another body.
     pub fn clear(&mut self) {
-        (self.piece, self.guides) = (None, [None, None]);
+        self.piece = None;
+        self.guides.clear();
     }
 
     /// Returns the last points, one for each target.
@@ -114,7 +114,7 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     }
     let (ends, rises) = (cache.curve_samples.ends(), piece.k[0] < piece.k[1]);
     let batch = TargetBatch { gap, body, piece, ends, rises, targets, room };
-    let (known, guides) = (&mut cache.curve_samples, cache.guides.iter().flatten());
+    let (known, guides) = (&mut cache.curve_samples, cache.guides.iter());
     // A series has no exact derivatives: dual numbers need points of the curve.
     let serves = |of: usize| T::COMPONENTS == 1 && of == index;
     let mut own = guides.filter(|(of, _)| serves(*of)).map(|(_, guide)| guide);

@@ -10,9 +10,9 @@
 //! ```
 //!
 //! There panels are refined until their uncertainty is at most a share of F/κ; all others are left
-//! as they are. A panel far longer than the requested span gets a window cut out, others are
-//! halved, and [runs of pieces](pieces) are divided. A heavier load continues from the panels of a
-//! lighter one, and a tilt adds a straight line.
+//! as they are. A panel far longer than the requested span gets a window cut out, a smooth one three
+//! times as many points, others are halved, and [runs of pieces](pieces) are divided. A heavier load
+//! continues from the panels of a lighter one, and a tilt adds a straight line.
 //!
 //! A gap whose slope rises from point to point by far more than its uncertainty, and at joints, is
 //! [convex](convex): where it is convex as far as a load reaches, the bodies touch in one interval.
@@ -38,8 +38,6 @@ use panel::Panel;
 pub(crate) use probe::MAX_NEAR_UNCERTAINTY;
 use series::BodyPoint;
 pub(super) use series::Series;
-/// Series of either body that give approximate parameters, with the numbers of their pieces.
-pub(crate) type Guides<T> = [[Option<(usize, Series<T>)>; 2]; 2];
 use std::cmp::Ordering;
 
 /// Largest number of rounds of halving, and of evaluations, for one load.
@@ -318,14 +316,17 @@ impl<T: Real> Survey<T> {
         Ok(changes)
     }
 
-    /// Returns the series around both ends of an interval.
-    pub fn guides(&self, on: Interval<T>) -> Guides<T> {
-        self.bodies.each_ref().map(|body| {
-            [on.left, on.right].map(|x| {
-                let panel = &body.panels[body.panels_at(x)[1]];
-                panel.series.map(|number| (panel.piece, body.series[number].clone()))
-            })
-        })
+    /// Takes the series of a body around both ends of an interval for guides, with the numbers of
+    /// their pieces. A closer series covers all of a piece: four exact points next to an upright end
+    /// promise a contact that needs the whole body, whose capacity then takes a thousand points.
+    pub fn guide(&self, body: Which, on: Interval<T>, guides: &mut Vec<(usize, Series<T>)>) {
+        let body = &self.bodies[body as usize];
+        guides.clear();
+        guides.extend([on.left, on.right].into_iter().filter_map(|x| {
+            let panel = &body.panels[body.panels_at(x)[1]];
+            let series = panel.series.map(|number| &body.series[number]);
+            series.filter(|series| !series.is_closer()).map(|series| (panel.piece, series.clone()))
+        }));
     }
 
     /// Lists the gap at all points of either body within their common range, and at the ends of

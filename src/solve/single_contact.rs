@@ -143,9 +143,9 @@ impl<T: Real> Single<'_, '_, T> {
             // The last contact was no help.
             self.integrator.clear_samples();
         } else if let Some(look) = self.look {
-            let guides = look.guides(self.start());
+            let start = self.start();
             if let Some(panels) = self.integrator.panels_mut() {
-                panels.panel_set.guide(guides);
+                panels.panel_set.guide(look, start);
             }
         }
         let (guess, doubt) = match self.initial_guess()? {

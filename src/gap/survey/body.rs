@@ -4,9 +4,9 @@ use super::check::check;
 use super::hull_in;
 use super::panel::{Missed, Panel, missed_by};
 use super::segment::Segment;
-use super::series::{BodyPoint, SAMPLES, Series, TESTED};
+use super::series::{BodyPoint, FURTHER, SAMPLES, Series, TESTED};
 use crate::gap::Surface;
-use crate::numerics::chebyshev::Table;
+use crate::profile::Piece;
 use crate::{CurvePoint, ProfileError, Real, Side};
 
 /// Largest number of pieces of a joined body that are all sampled at once; of more pieces, only
@@ -52,8 +52,8 @@ pub(super) struct Scratch<T> {
     pub k: Vec<T>,
     pub points: Vec<CurvePoint<T>>,
     panels: Vec<Panel<T>>,
-    /// Panels to be sampled.
-    wanted: Vec<usize>,
+    /// Panels to be sampled, and whether a closer series is made of them.
+    wanted: Vec<(usize, bool)>,
 }
 
 impl<T: Real> Body<T> {
@@ -91,7 +91,7 @@ impl<T: Real> Body<T> {
         }
         if self.panels.len() <= FEW_PIECES {
             let wanted = (0..self.panels.len()).filter(|&i| !self.panels[i].is_sampled);
-            self.scratch.wanted.extend(wanted);
+            self.scratch.wanted.extend(wanted.map(|i| (i, false)));
         }
         self.fresh.clear();
         self.fresh.push(range);
@@ -139,20 +139,22 @@ impl<T: Real> Body<T> {
         spans: &[[T; 2]],
         is_marked: impl Fn(&Panel<T>) -> bool,
     ) -> usize {
-        let batches = |panel: &Panel<T>| {
+        let points = |panel: &Panel<T>| {
             let Some(hull) = hull_in(spans, panel).filter(|_| is_marked(panel)) else { return 0 };
             match panel.series {
-                Some(number) if self.window(panel, &self.series[number], hull).is_some() => 1,
-                Some(_) => 2,
+                Some(number) if self.window(panel, &self.series[number], hull).is_some() => TESTED,
+                Some(number) if panel.may_be_closer(&self.series[number]) => FURTHER,
+                Some(_) => 2 * TESTED,
                 None if panel.is_sampled || panel.settled(surface).is_some() => 0,
-                None => panel.last - panel.piece + 1,
+                None => TESTED * (panel.last - panel.piece + 1),
             }
         };
-        self.panels.iter().fold(0, |sum: usize, panel| sum.saturating_add(TESTED * batches(panel)))
+        self.panels.iter().fold(0, |sum: usize, panel| sum.saturating_add(points(panel)))
     }
 
-    /// Refines the marked panels on some spans: samples those that are not sampled, cuts windows
-    /// around the spans out of far longer panels, and halves the others.
+    /// Refines the marked panels on some spans: samples those that are not sampled, takes a closer
+    /// series where the curve is smooth, cuts windows around the spans out of far longer panels, and
+    /// halves the others.
     pub fn refine(
         &mut self,
         surface: &Surface<'_, T>,
@@ -176,10 +178,19 @@ impl<T: Real> Body<T> {
             let settled = if panel.is_sampled { None } else { panel.settled(surface) };
             match (settled, panel.series) {
                 (Some(settled), _) => self.panels.push(settled),
-                (None, Some(number)) => self.split(panel, number, hull),
+                (None, Some(number)) => {
+                    let series = &self.series[number];
+                    let is_short = self.window(panel, series, hull).is_some();
+                    if panel.may_be_closer(series) && !is_short {
+                        self.scratch.wanted.push((self.panels.len(), true));
+                        self.panels.push(*panel);
+                    } else {
+                        self.split(panel, number, hull);
+                    }
+                }
                 (None, None) if panel.is_run() => self.panels.extend(panel.parts(surface)),
                 (None, None) => {
-                    self.scratch.wanted.push(self.panels.len());
+                    self.scratch.wanted.push((self.panels.len(), false));
                     self.panels.push(Panel { is_sampled: true, ..*panel });
                 }
             }
@@ -229,7 +240,7 @@ impl<T: Real> Body<T> {
     /// Adds a part of a panel, to be sampled or with the old series.
     fn push_part(&mut self, part: Panel<T>, number: usize, is_wanted: bool) {
         if is_wanted {
-            self.scratch.wanted.push(self.panels.len());
+            self.scratch.wanted.push((self.panels.len(), false));
             self.panels.push(part);
         } else {
             // Only points of its own can show that its uncertainty is noise.
@@ -249,54 +260,78 @@ impl<T: Real> Body<T> {
     ) -> Result<(), ProfileError<T>> {
         let wanted = std::mem::take(&mut self.scratch.wanted);
         let mut rest = &wanted[..];
-        while let [first, ..] = *rest {
+        while let [(first, _), ..] = *rest {
             let index = self.panels[first].piece;
-            let batch;
-            (batch, rest) = rest.split_at(rest.partition_point(|&i| self.panels[i].piece == index));
+            let is_on = |&(i, _): &(usize, bool)| self.panels[i].piece == index;
+            let (batch, after) = rest.split_at(rest.partition_point(is_on));
+            rest = after;
             let piece = surface.piece(index);
             let Scratch { k, points, .. } = &mut self.scratch;
             k.clear();
-            k.extend(batch.iter().flat_map(|&i| Series::parameters(self.panels[i].k)));
+            for &(i, is_closer) in batch {
+                match is_closer {
+                    true => k.extend(Series::further(self.panels[i].k)),
+                    false => k.extend(Series::parameters(self.panels[i].k)),
+                }
+            }
             points.clear();
             points.resize(k.len(), piece.ends[0]);
             piece.curve.at_many(k, points);
             *heights = heights.saturating_add(k.len());
-            for (&i, points) in batch.iter().zip(points.as_chunks::<TESTED>().0) {
-                let panel = &mut self.panels[i];
-                let mut series = Series::new(panel.k, points);
-                let missed = missed_by(&series, panel, &self.missed);
-                let is_void = !missed.is_finite();
-                // An uncertainty that is no number stays so.
-                if missed > series.doubt {
-                    series.doubt = missed;
+            let (k, points) = (std::mem::take(k), std::mem::take(points));
+            let mut from = 0;
+            for &(i, is_closer) in batch {
+                let (panel, points) = (&self.panels[i], &points[from..]);
+                // The additional point is not in a row with the others.
+                let [count, nodes] = if is_closer { [FURTHER; 2] } else { [TESTED, SAMPLES] };
+                check(&piece, panel, (&k[from..][..nodes], &points[..nodes]), range, heights)?;
+                match (panel.series, points.first_chunk(), points.first_chunk()) {
+                    (Some(number), Some(further), _) if is_closer => {
+                        self.series.push(self.series[number].closer(further));
+                    }
+                    (_, _, Some(first)) => self.series.push(Series::new(panel.k, first)),
+                    _ => break,
                 }
-                let is_vain = panel.series.is_some_and(|number| {
-                    // Noise does not shrink with the length, nor do waves too fine for the points.
-                    let share = series.share_of(&self.series[number]);
-                    !is_void && series.doubt > share * panel.doubt
-                });
-                if panel.series.is_some() {
-                    panel.before = panel.doubt;
-                }
-                let is_known =
-                    !is_void && (series.is_exact || is_vain && series.is_noise(&piece, heights));
-                panel.since = match is_vain {
-                    _ if is_known => T::one() / T::zero(),
-                    true => panel.since,
-                    false => (panel.k[1] - panel.k[0]).abs(),
-                };
-                (panel.doubt, panel.is_sampled, panel.is_void) = (series.doubt, true, is_void);
-                check(&piece, panel, points, range, heights)?;
-                panel.series = Some(self.series.len());
-                self.series.push(series);
+                self.take_series(i, &piece, heights);
+                from += count;
             }
-            for &i in batch {
+            (self.scratch.k, self.scratch.points) = (k, points);
+            for &(i, _) in batch {
                 self.meet(i);
                 self.meet(i + 1);
             }
         }
         self.scratch.wanted = wanted;
         Ok(())
+    }
+
+    /// Takes the last series for that of a panel.
+    fn take_series(&mut self, i: usize, piece: &Piece<'_, T>, heights: &mut usize) {
+        let (panel, last) = (&mut self.panels[i], self.series.len() - 1);
+        let (known, series) = self.series.split_at_mut(last);
+        let series = &mut series[0];
+        let missed = missed_by(series, panel, &self.missed);
+        let is_void = !missed.is_finite();
+        // An uncertainty that is no number stays so.
+        if missed > series.doubt {
+            series.doubt = missed;
+        }
+        let is_vain = panel.series.is_some_and(|number| {
+            // Noise does not shrink with the length, nor do waves too fine for the points.
+            let share = series.share_of(&known[number]);
+            !is_void && series.doubt > share * panel.doubt
+        });
+        if panel.series.is_some() {
+            panel.before = panel.doubt;
+        }
+        let is_known = !is_void && (series.is_exact || is_vain && series.is_noise(piece, heights));
+        panel.since = match is_vain {
+            _ if is_known => T::one() / T::zero(),
+            true => panel.since,
+            false => (panel.k[1] - panel.k[0]).abs(),
+        };
+        (panel.doubt, panel.is_sampled, panel.is_void) = (series.doubt, true, is_void);
+        panel.series = Some(last);
     }
 
     /// Sets the common end of a panel and the one before it, inside a piece, by the less uncertain
@@ -364,8 +399,9 @@ impl<T: Real> Body<T> {
             Some(number) => {
                 let series = &self.series[number];
                 let [y, slope] = series.at(x);
-                let near = series.points.partition_point(|row| row.x < x).min(SAMPLES - 1);
-                [y, slope, series.points[near].doubt]
+                let points = series.points();
+                let near = points.partition_point(|row| row.x < x).min(points.len() - 1);
+                [y, slope, points[near].doubt]
             }
             None => {
                 let is_cubic = panel.series.is_none() && (panel.is_sampled || panel.is_run());
@@ -384,10 +420,10 @@ impl<T: Real> Body<T> {
 fn inner<'s, T: Real>(series: &'s [Series<T>], panel: &Panel<T>) -> &'s [BodyPoint<T>] {
     let Some(series) = panel.series.map(|number| &series[number]) else { return &[] };
     let [from, to] = panel.k.map(|k| series.t(k));
-    let nodes = &Table::of(SAMPLES).z[..SAMPLES];
+    let nodes = series.places();
     let first = nodes.partition_point(|&node| T::of(node) < from);
     let after = nodes.partition_point(|&node| T::of(node) <= to);
-    &series.points[first..after.max(first)]
+    &series.points()[first..after.max(first)]
 }
 
 /// Refuses pieces that do not rise, or do not meet.

@@ -70,6 +70,11 @@ impl<T: Real> Panel<T> {
         (self.doubt, self.since, self.is_void) = (T::one() / T::zero(), T::zero(), true);
     }
 
+    /// Tells whether more points along all of it are better than two halves, given its series.
+    pub fn may_be_closer(&self, series: &Series<T>) -> bool {
+        series.may_be_closer && !self.is_void && series.k == self.k
+    }
+
     /// Tells whether it consists of several pieces.
     pub fn is_run(&self) -> bool {
         self.last > self.piece

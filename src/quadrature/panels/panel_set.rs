@@ -9,10 +9,10 @@ mod sampling;
 pub(crate) use derivative_check::Rises;
 
 use super::panel::Panel;
-use crate::gap::{Added, Cost, Gap, Guides, SampleCache, Sampler};
+use crate::gap::{Added, Cost, Gap, SampleCache, Sampler, Survey};
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, size_for};
 use crate::profile::Noise;
-use crate::{ContactError, Ends, Interval, Real, Side};
+use crate::{Body, ContactError, Ends, Interval, Real, Side};
 use candidate::{Candidate, FALL_OF_A_ROOT, LEVELS_OF_A_WAVE, MAX_AT_JUMP, is_long};
 use num_traits::ToPrimitive;
 use sampling::SampledBody;
@@ -135,10 +135,10 @@ impl<T: Real> PanelSet<T> {
         }
     }
 
-    /// Stores guides to the parameters of either body on pieces that are not sampled yet.
-    pub fn guide(&mut self, guides: Guides<T>) {
-        for (trace, guides) in self.traces.iter_mut().zip(guides) {
-            trace.guides = guides;
+    /// Takes guides to the parameters of either body from a survey, for an interval.
+    pub fn guide(&mut self, look: &Survey<T>, on: Interval<T>) {
+        for (body, trace) in [Body::Lower, Body::Upper].into_iter().zip(&mut self.traces) {
+            look.guide(body, on, &mut trace.guides);
         }
     }
 
