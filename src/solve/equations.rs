@@ -69,6 +69,15 @@ impl<T: Real> Residual<T> {
         }
     }
 
+    /// Tells whether a contact is beyond the most that the bodies bear: it is wider than another
+    /// that needs more, and lacks more than this. Next to a limit that is given, where the gap may
+    /// close at first, tension grows with the width before any load is carried: that tells nothing.
+    pub fn is_beyond_most(&self, narrower: &Self) -> bool {
+        let (zero, deficit) = (T::zero(), narrower.deficit());
+        let carries = narrower.carried > zero && deficit > zero;
+        carries && (self.carried <= zero || self.deficit() > deficit)
+    }
+
     /// Returns the size of the spread as a share of the forces.
     pub fn relative_spread(&self) -> T {
         (self.at_a + self.at_b).abs() / self.size

@@ -66,10 +66,9 @@ impl<T: Real> NestedSearch<'_, T> {
         let mut last: Option<(T, Trial<T>)> = None;
         let (mut missed, mut end, mut times) = (None, None, T::one());
         let enclosed = loop {
-            // A wider contact that carries less is beyond the most that the bodies bear.
             let is_beyond = |trial: &Trial<T>| {
-                let was = last.map_or(T::zero(), |(_, last)| condition(&last));
-                unknown.longest.is_none() && was > T::zero() && condition(trial) > was
+                let was = last.filter(|_| unknown.longest.is_none());
+                was.is_some_and(|(_, last)| trial.residual.is_beyond_most(&last.residual))
             };
             let Some(trial) = attempt(self, x)?.filter(|trial| !is_beyond(trial)) else {
                 let at = *missed.get_or_insert(x);
