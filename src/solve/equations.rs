@@ -69,13 +69,14 @@ impl<T: Real> Residual<T> {
         }
     }
 
-    /// Tells whether a contact is beyond the most that the bodies bear: it is wider than another
-    /// that needs more, and lacks more than this. Next to a limit that is given, where the gap may
-    /// close at first, tension grows with the width before any load is carried: that tells nothing.
+    /// Tells whether a contact is beyond the most that the bodies bear: it is wider than one that
+    /// carries load, too little, and lacks more, or is under tension. (That a narrower one is under
+    /// tension tells nothing: next to a given limit, from which the gap closes at first, tension
+    /// grows with the width.)
     pub fn is_beyond_most(&self, narrower: &Self) -> bool {
         let (zero, deficit) = (T::zero(), narrower.deficit());
-        let carries = narrower.carried > zero && deficit > zero;
-        carries && (self.carried <= zero || self.deficit() > deficit)
+        let lacks_more = self.carried <= zero || self.deficit() > deficit;
+        narrower.carried > zero && deficit > zero && lacks_more
     }
 
     /// Returns the size of the spread as a share of the forces.

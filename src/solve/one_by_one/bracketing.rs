@@ -66,11 +66,11 @@ impl<T: Real> NestedSearch<'_, T> {
         let mut last: Option<(T, Trial<T>)> = None;
         let (mut missed, mut end, mut times) = (None, None, T::one());
         let enclosed = loop {
-            let is_beyond = |trial: &Trial<T>| {
-                let was = last.filter(|_| unknown.longest.is_none());
-                was.is_some_and(|(_, last)| trial.residual.is_beyond_most(&last.residual))
+            let narrower = last.filter(|_| unknown.longest.is_none());
+            let is_borne = |Trial { residual, .. }: &Trial<T>| {
+                narrower.is_none_or(|(_, was)| !residual.is_beyond_most(&was.residual))
             };
-            let Some(trial) = attempt(self, x)?.filter(|trial| !is_beyond(trial)) else {
+            let Some(trial) = attempt(self, x)?.filter(is_borne) else {
                 let at = *missed.get_or_insert(x);
                 let back = last.map_or(least, |(at, _)| at);
                 if (x - back).abs() <= T::epsilon().sqrt() * back.abs() {
