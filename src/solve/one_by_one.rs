@@ -2,8 +2,9 @@
 //!
 //! Two conditions, one at each edge, fix two unknowns. They are taken as a *balance* (their
 //! difference, which decides where a contact of given width sits) inside a *load* (their sum, which
-//! decides how wide it is). If the slope of the gap rises with x, both are monotone, each has one
-//! root, and each is a problem of one unknown for any [`LimitSearch`](crate::LimitSearch):
+//! decides how wide it is). If the slope of the gap rises with x, each has one root, and each is a
+//! problem of one unknown for any [`LimitSearch`](crate::LimitSearch). Both are monotone, but for
+//! the load beside a limit that is given: tension may grow there before any load is carried.
 //!
 //! ```text
 //! outer:  half-width L        deficit(L, u(L)) = 0,     as ln L
