@@ -98,7 +98,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`SolveError::Falls`],
     /// [`EvaluationError::NoLoadDerivative`](crate::EvaluationError::NoLoadDerivative) with a given
     /// approach; the errors of [`Solution::certify`] if [`certified`](Self::certified).
-    pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
+    pub fn solve(&self, control: Control<T>) -> Fallible<T, Solution<'b, T>> {
         T::solve(self, control)
     }
 
@@ -279,13 +279,14 @@ fn by_edge_pressure<T: Real>(
     load: T,
     work: &mut Work<'_, T>,
 ) -> Fallible<T, ContactState<T>> {
-    let kappa = contact.kappa;
-    wanted.check()?;
+    let (kappa, range) = (contact.kappa, contact.gap.range());
+    wanted.check(range[1] - range[0])?;
     check_positive("load", load)?;
     let equations = Equations::Pressure { kappa, load, wanted };
-    let nested = one_by_one::find(contact, equations, work.integrator, contact.start, work.cost)?;
-    let m = work.integrator.moments(&contact.gap, nested.on)?;
+    let (on, error) =
+        one_by_one::find(contact, equations, work.integrator, contact.start, work.cost)?;
+    let m = work.integrator.moments(&contact.gap, on)?;
     let (edges, given) = (Ends::both(Edge::Fixed(load)), Given::Load(load));
     let conditions = Conditions { kappa, edges, given };
-    Ok(ContactState::new(&conditions, nested.on, load, Some(nested.error), &m))
+    Ok(ContactState::new(&conditions, on, load, Some(error), &m))
 }

@@ -72,17 +72,18 @@ impl<T: Real> EdgePressure<T> {
         }
     }
 
-    pub(crate) fn check(&self) -> Result<(), ContactError<T>> {
-        let entries = [
-            ("A", self.at_a, false),
-            ("B", self.at_b, false),
-            ("ε_a", self.distance_a, true),
-            ("ε_b", self.distance_b, true),
-            ("ε₁", self.tolerance_a, true),
-            ("ε₂", self.tolerance_b, true),
-        ];
-        for (name, value, positive) in entries {
-            if !value.is_finite() || (positive && value <= T::zero()) {
+    /// Checks the numbers, given the width of the bodies.
+    pub(crate) fn check(&self, width: T) -> Result<(), ContactError<T>> {
+        let infinity = T::one() / T::zero();
+        for (name, value, above, below) in [
+            ("A", self.at_a, -infinity, infinity),
+            ("B", self.at_b, -infinity, infinity),
+            ("ε_a", self.distance_a, T::zero(), width),
+            ("ε_b", self.distance_b, T::zero(), width),
+            ("ε₁", self.tolerance_a, T::zero(), infinity),
+            ("ε₂", self.tolerance_b, T::zero(), infinity),
+        ] {
+            if !(value > above && value < below) {
                 return Err(InputError::InvalidEdgePressure { name, value }.into());
             }
         }

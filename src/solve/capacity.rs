@@ -6,7 +6,7 @@
 
 use super::Contact;
 use super::edges::Conditions;
-use super::equations::{Equations, Residual};
+use super::equations::Equations;
 use crate::gap::Cost;
 use crate::quadrature::{Engine, LoadCase, Panels};
 use crate::search::{Bracket, Brent, try_find};
@@ -77,7 +77,8 @@ pub(super) fn capacity<T: Real>(
     let mut full = Engine::new(&Panels::FULL).ok()?;
     let mut rough = Engine::new(&Panels { tolerance: ROUGH_TOLERANCE }).ok()?;
     let fixed = conditions.limits();
-    let equations = Equations::Strength { conditions: *conditions, load: T::zero() };
+    // Only the balance counts.
+    let equations = Equations::Strength(conditions.under(T::zero()));
     let mut pinned = Pinned { contact, equations, full: &mut full, rough: &mut rough };
     let (left, right) = (fixed.left.unwrap_or(left), fixed.right.unwrap_or(right));
     let found = pinned.largest_contact(Interval { left, right });
@@ -158,7 +159,9 @@ impl<T: Real> Pinned<'_, T> {
     /// Returns a shift that is positive if the contact must move to the right. If rough samples
     /// make its sign certain, only the sign is exact.
     fn rough_shift(&mut self, on: Interval<T>) -> Option<T> {
-        let rough = residual(self.contact, &self.equations, self.rough, on).filter(|rough| {
+        let Self { contact, equations, rough, .. } = self;
+        let rough = equations.residual(&contact.gap, on, rough, &mut Cost::default()).ok();
+        let rough = rough.filter(|rough| {
             rough.shift().abs() > (T::of(SURE_IMBALANCE) + T::of(16.0) * rough.error) * rough.size
         });
         rough.map(|rough| rough.shift()).or_else(|| self.shift(on))
@@ -166,21 +169,7 @@ impl<T: Real> Pinned<'_, T> {
 
     /// Returns the shift from full samples.
     fn shift(&mut self, on: Interval<T>) -> Option<T> {
-        Some(residual(self.contact, &self.equations, self.full, on)?.shift())
+        let Self { contact, equations, full, .. } = self;
+        Some(equations.residual(&contact.gap, on, full, &mut Cost::default()).ok()?.shift())
     }
-}
-
-fn residual<T: Real>(
-    contact: &Contact<'_, T>,
-    equations: &Equations<T>,
-    integrator: &mut Engine<T>,
-    on: Interval<T>,
-) -> Option<Residual<T>> {
-    // Panels much wider than a contact would miss narrow features in it.
-    let covered = integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
-    if covered > T::of(2.0 * NARROWING_FACTOR) * on.half_width() {
-        integrator.clear_samples();
-    }
-    let residual = equations.residual(&contact.gap, on, integrator, &mut Cost::default()).ok()?;
-    residual.is_finite().then_some(residual)
 }

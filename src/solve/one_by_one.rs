@@ -2,261 +2,177 @@
 //!
 //! Two conditions, one at each edge, fix two unknowns. They are taken as a *balance* (their
 //! difference, which decides where a contact of given width sits) inside a *load* (their sum, which
-//! decides how wide it is). If the slope of the gap rises with x, both are monotone, each has one
-//! root, and each is a problem of one unknown for any [`LimitSearch`]:
+//! decides how wide it is). If the slope of the gap rises with x, each has one root, and each is a
+//! problem of one unknown for any [`LimitSearch`](crate::LimitSearch). Both are monotone, but for
+//! the load beside a limit that is given: tension may grow there before any load is carried.
 //!
 //! ```text
-//! outer:  half-width L        spread(L, u(L)) = 0
+//! outer:  half-width L        deficit(L, u(L)) = 0,     as ln L
 //! inner:  distance u          shift(L, u) = 0,     a = x₀ + u,  -b = x₀ + u - 2L
 //!                                             or   -b = x₀ - u,  a = x₀ - u + 2L
 //! ```
 //!
 //! The distance u belongs to the edge closer to `x₀`, which may be a millionth of the width away:
-//! so u keeps its digits. `x₀` is a point of first contact, where the slope of the gap passes
-//! through zero. Every contact contains it, so `u` and the half-width are positive lengths of the
-//! contact's own size, and a relative tolerance means the same on either side and for any origin.
+//! so u keeps its digits. `x₀` is a limit that is given, or a point of first contact, where the
+//! slope of the gap passes through zero. Every contact contains it, so `u` and the half-width are
+//! positive lengths of the contact's own size, and a relative tolerance means the same on either
+//! side and for any origin. (With unequal adhesion at its edges a contact may lie beside it.)
 //!
-//! Both searches get a narrow bracket: the inner one steps out from the place of the last width,
-//! the outer one from the start, by factors for a round body.
+//! Either search [steps out](bracketing) until its root is enclosed: the inner one from the place
+//! of the last width, the outer one from the start.
 
-mod centre;
+mod bracketing;
 mod derivatives;
-mod width;
 
 use super::Contact;
-use super::edges::{Conditions, Given};
 use super::equations::{Equations, Residual};
 use super::first_contact::first_contact;
-use crate::gap::{Cost, Gap, Sampler};
+use crate::gap::{Cost, Sampler};
 use crate::quadrature::Engine;
-use crate::search::{Bracket, LimitSearch, try_find};
-use crate::{ContactError, Ends, Fallible, Interval, Real, SolveError};
-use centre::Centred;
+use crate::{ContactError, Ends, Fallible, Interval, Real, Side, SolveError};
+use bracketing::{Missed, Unknown};
 use derivatives::differentiate;
 
-/// Largest ratio of the width of the panels to that of a contact tried on them: a tip of the bodies
-/// that is as much narrower would fall between the nodes.
-const MAX_WIDTH_RATIO: f64 = 16.0;
+/// Widths by which a contact may lie beside the point of first contact if it is pulled more at one
+/// edge. (A parabola that is pulled at one edge presses at the other up to two half-widths away.)
+const MOST_BESIDE: f64 = 16.0;
 
-/// Contacts tried side by side for one that is pulled away from the point of first contact. (A
-/// parabola that is pulled at one edge presses at the other up to two half-widths away.)
-const MAX_BESIDE: usize = 16;
-
-/// Limits that meet the conditions at the edges.
-pub(super) struct Nested<T> {
-    pub on: Interval<T>,
-    /// Estimated error of the limits relative to the half-width.
-    pub error: T,
-}
-
-/// Finds the limits that meet the conditions, with or without a start.
+/// Finds the limits that meet the conditions, with or without a start, and their estimated error
+/// relative to the half-width.
 pub(super) fn find<T: Real>(
     contact: &Contact<'_, T>,
     equations: Equations<T>,
     integrator: &mut Engine<T>,
     start: Option<Interval<T>>,
     cost: &mut Cost,
-) -> Fallible<T, Nested<T>> {
-    let gap = &contact.gap;
-    let range = gap.range();
-    if let Equations::Strength {
-        conditions: Conditions { given: Given::HalfWidth(width), .. },
-        ..
-    } = equations
-    {
-        return place(contact, equations, integrator, width, start, cost);
-    }
-    equations.check(range)?;
-    let origin = match equations.limits() {
-        Ends { left: Some(given), .. } | Ends { right: Some(given), .. } => given,
-        Ends { left: None, right: None } => {
+) -> Fallible<T, (Interval<T>, T)> {
+    let (gap, limits) = (&contact.gap, equations.limits());
+    let origin = match limits.left.or(limits.right) {
+        Some(given) => given,
+        None => {
             let mut sampler = Sampler::default();
             let first = first_contact(&mut sampler, gap, start);
             *cost += sampler.cost;
             first?
         }
     };
-    let half_width = match (start, equations.limits()) {
-        (Some(start), _) => start.half_width(),
-        (None, Ends { left: Some(_), .. }) => T::of(0.125) * (range[1] - origin),
-        (None, Ends { right: Some(_), .. }) => T::of(0.125) * (origin - range[0]),
-        (None, _) => T::of(0.25) * (origin - range[0]).min(range[1] - origin),
-    };
-    let mut search = NestedSearch::new(contact, equations, integrator, origin, cost);
-    let trial = search.widen(half_width)?;
-    if let Equations::Pressure { wanted, .. } = equations {
-        wanted.met(trial.on, [trial.residual.at_a, trial.residual.at_b])?;
-    }
-    // The error of the quadrature, and the residual that the search has left.
-    let Residual { at_a, at_b, size, .. } = trial.residual;
-    let missed = T::of(0.5) * (at_a.abs() + at_b.abs()) / size;
-    let on = differentiate(&equations, gap, search.integrator, trial.on, None, search.cost)?;
-    Ok(Nested { on, error: trial.residual.error + missed })
-}
-
-/// Finds the balanced contact of a given half-width.
-fn place<T: Real>(
-    contact: &Contact<'_, T>,
-    equations: Equations<T>,
-    integrator: &mut Engine<T>,
-    half_width: T,
-    start: Option<Interval<T>>,
-    cost: &mut Cost,
-) -> Fallible<T, Nested<T>> {
-    let gap = &contact.gap;
-    let mut sampler = Sampler::default();
-    let first = first_contact(&mut sampler, gap, start);
-    *cost += sampler.cost;
-    let (origin, range) = (first?, gap.range());
-    // The unknown load does not tell how well the contact has to be balanced.
-    let unbalance = Residual::shift;
-    let mut search = NestedSearch {
-        unbalance,
-        ..NestedSearch::new(contact, equations, integrator, origin, cost)
-    };
-    for _ in 0..MAX_BESIDE {
-        match search.centre(half_width)? {
-            Centred::At(trial) => {
-                let Residual { at_a, at_b, size, error, .. } = trial.residual;
-                let missed = T::of(0.5) * (at_a - at_b).abs() / size;
-                let width = Some(half_width);
-                let on = differentiate(
-                    &equations,
-                    gap,
-                    search.integrator,
-                    trial.on,
-                    width,
-                    search.cost,
-                )?;
-                return Ok(Nested { on, error: error + missed });
-            }
-            Centred::Beyond(end) => {
-                let x = [search.origin - half_width, search.origin + half_width][end];
-                return Err(SolveError::OutsideBodies { x, range }.into());
-            }
-            // If one edge is pulled more than the other, the contact may sit further on.
-            Centred::Adrift(on) if equations.is_lopsided() => {
-                let before = search.origin;
-                search.origin = if on.left < before { on.left } else { on.right };
-            }
-            Centred::Adrift(_) => break,
+    let reach = Ends::from(gap.range()).map(|end| (end - origin).abs());
+    let room = Ends::from_fn(|side| if limits[side].is_some() { T::zero() } else { reach[side] });
+    let (near, share, stiffness) = (Side::Right, T::of(0.5), T::zero());
+    let mut search =
+        NestedSearch { contact, equations, integrator, cost, origin, room, near, share, stiffness };
+    let half_width = equations.half_width();
+    let trial = match half_width {
+        Some(half_width) => search.centre(half_width)?.ok_or_else(|| search.no_balance(half_width)),
+        None => {
+            let guess = start.map_or(T::of(0.125) * (room.left + room.right), |on| on.half_width());
+            search.widen(guess)
         }
-    }
-    Err(search.no_balance(half_width))
+    }?;
+    // The error of the quadrature, and the residual that the search has left.
+    let Residual { at_a, at_b, size, error, .. } = trial.residual;
+    let missed = match half_width {
+        Some(_) => (at_a - at_b).abs(),
+        None => at_a.abs() + at_b.abs(),
+    };
+    let on = differentiate(&equations, gap, search.integrator, trial.on, search.cost)?;
+    Ok((on, error + T::of(0.5) * missed / size))
 }
 
 /// Trial contact, and the residual of its conditions.
 #[derive(Clone, Copy)]
-struct TrialContact<T> {
+struct Trial<T> {
     on: Interval<T>,
     residual: Residual<T>,
 }
 
 struct NestedSearch<'s, T: Real> {
+    contact: &'s Contact<'s, T>,
     equations: Equations<T>,
-    gap: &'s Gap<'s, T>,
     integrator: &'s mut Engine<T>,
     cost: &'s mut Cost,
-    strategy: &'s dyn LimitSearch<T>,
-    /// Point of first contact.
+    /// Point of first contact, or a limit that is given.
     origin: T,
-    range: [T; 2],
-    /// Number of the edge whose distance from the origin is sought: left (0) or right (1).
-    near: usize,
+    /// Distances that a contact can reach from it.
+    room: Ends<T>,
+    /// Edge whose distance from the origin is sought.
+    near: Side,
     /// Last share of the width between this edge and the origin.
     share: T,
-    /// Last decrease of the shift per unit of length moved to the right.
-    stiffness: Option<T>,
-    /// Residual that vanishes at the place of a contact of given width.
-    unbalance: fn(&Residual<T>) -> T,
+    /// Last decrease of the shift per unit of length moved to the right; zero if it is not known.
+    stiffness: T,
 }
 
-impl<'s, T: Real> NestedSearch<'s, T> {
-    fn new(
-        contact: &'s Contact<'s, T>,
-        equations: Equations<T>,
-        integrator: &'s mut Engine<T>,
-        origin: T,
-        cost: &'s mut Cost,
-    ) -> Self {
-        Self {
-            equations,
-            gap: &contact.gap,
-            integrator,
-            cost,
-            strategy: contact.strategy(),
-            origin,
-            range: contact.gap.range(),
-            near: 1,
-            share: T::of(0.5),
-            stiffness: None,
-            unbalance: Residual::rough_shift,
+impl<T: Real> NestedSearch<'_, T> {
+    /// Finds the contact of the width at which the deficit vanishes, starting from a guess.
+    fn widen(&mut self, guess: T) -> Fallible<T, Trial<T>> {
+        let most = T::of(0.5) * (self.room.left + self.room.right);
+        let from = guess.max(T::of(0.75) * self.equations.least_width()).min(T::of(0.5) * most);
+        // The load of a round body is proportional to the square of the width.
+        let (ends, slope, longest) = ([T::zero(), most], T::of(2.0), None);
+        let mut unknown = Unknown { from, ends, slope, longest };
+        let deficit = |trial: &Trial<T>| trial.residual.deficit();
+        let found = self.root(&mut unknown, deficit, |search, width| search.centre(width))?;
+        let last = found.as_ref().map_or_else(|missed| missed.last, |&trial| Some(trial));
+        if let (Equations::Pressure { wanted, .. }, Some(trial)) = (self.equations, last) {
+            wanted.met(trial.on, [trial.residual.at_a, trial.residual.at_b])?;
         }
+        found.map_err(|missed| self.no_balance(missed.at))
     }
 
-    fn attempt(&mut self, on: Interval<T>) -> Fallible<T, TrialContact<T>> {
-        // Panels much wider than the contact are less accurate than they seem.
-        let covered =
-            self.integrator.sampled_interval().map_or(T::zero(), |covered| covered.half_width());
-        if covered > T::of(MAX_WIDTH_RATIO) * on.half_width() {
-            self.integrator.clear_samples();
+    /// Finds the balanced contact of a given half-width, if there is one.
+    fn centre(&mut self, half_width: T) -> Fallible<T, Option<Trial<T>>> {
+        let Self { equations, near, room, share, stiffness: slope, .. } = *self;
+        let (width, [first, last]) = (half_width + half_width, self.contact.gap.range());
+        let beside = if equations.is_lopsided() { T::of(MOST_BESIDE) * width } else { T::zero() };
+        let ends = [(width - room[near.other()]).max(-beside), (width + beside).min(room[near])];
+        // Closer than this, both limits are the same number.
+        let least = equations.least_width().max(ulps::<T>() * self.origin.abs());
+        let rounding = ulps::<T>() * (first.abs() + last.abs());
+        if width <= least || ends[0] - ends[1] > rounding {
+            return Ok(None);
         }
-        let residual = self.equations.residual(self.gap, on, self.integrator, self.cost)?;
-        if !residual.is_finite() {
-            return Err(SolveError::Overflow { interval: on }.into());
-        }
-        Ok(TrialContact { on, residual })
-    }
-
-    /// Runs the user's strategy on one of the conditions and returns the best trial met.
-    fn run(
-        &mut self,
-        bracket: &Bracket<T>,
-        best: &mut TrialContact<T>,
-        condition: fn(&Residual<T>) -> T,
-        mut attempt: impl FnMut(&mut Self, T) -> Fallible<T, TrialContact<T>>,
-    ) -> Fallible<T, TrialContact<T>> {
-        let strategy = self.strategy;
-        let resolution = self.resolution();
-        let falls = bracket.values.is_some_and(|[at_lo, _]| at_lo > T::zero());
-        let [mut lo, mut hi] = [bracket.lo, bracket.hi];
-        self.cost.searches += 1;
-        let function = |unknown| {
-            self.cost.search_values += 1;
-            let trial = attempt(self, unknown)?;
-            *best = nearer(trial, *best, condition);
-            let value = condition(&trial.residual);
-            *(if (value > T::zero()) == falls { &mut lo } else { &mut hi }) = unknown;
-            Ok(if hi - lo <= resolution { T::zero() } else { value })
+        // An unknown load does not tell how well the contact has to be balanced.
+        let is_placed = equations.half_width().is_some();
+        let outward = |Trial { residual, .. }: &Trial<T>| {
+            let shift = if is_placed { residual.shift() } else { residual.rough_shift() };
+            if near == Side::Right { shift } else { -shift }
         };
-        match try_find(strategy, function, bracket) {
-            Ok(_) => Ok(*best),
-            Err(error) => {
-                Err(error
-                    .or_else(|source| SolveError::LimitSearch { best: best.on, source }.into()))
-            }
+        let (from, longest) = (share * width, Some(T::of(1.0 / 16.0) * width));
+        let mut unknown = Unknown { from, ends, slope, longest };
+        let found = self.root(&mut unknown, outward, |search, reach| {
+            let Self { contact, origin, near, .. } = *search;
+            let on = match near {
+                Side::Left => Interval { left: origin - reach, right: origin + (width - reach) },
+                Side::Right => Interval { left: origin + (reach - width), right: origin + reach },
+            };
+            let on = Interval { left: on.left.max(first), right: on.right.min(last) };
+            let residual = equations.residual(&contact.gap, on, search.integrator, search.cost)?;
+            Ok(Some(Trial { on, residual }))
+        })?;
+        self.stiffness = unknown.slope;
+        let trial = match (found, equations) {
+            (Ok(trial), _) => trial,
+            // The unbalanced contact still tells whether to widen, and a wider one may be balanced.
+            // If not, the pressures at its edges show it.
+            (Err(Missed { last: Some(trial), .. }), Equations::Pressure { .. }) => trial,
+            (Err(_), _) => return Ok(None),
+        };
+        let Interval { left, right } = trial.on;
+        let reaches = Ends { left: self.origin - left, right: right - self.origin };
+        if reaches[near.other()] < T::of(0.125) * reaches[near] {
+            self.near = near.other();
         }
-    }
-
-    /// Returns the distance below which contacts far from x = 0 are the same numbers.
-    fn resolution(&self) -> T {
-        T::of(2.0) * T::epsilon() * self.origin.abs()
-    }
-
-    /// Returns the distances that a contact can reach to the left and to the right of the origin.
-    fn room(&self) -> [T; 2] {
-        [self.origin - self.range[0], self.range[1] - self.origin]
+        self.share = reaches[self.near] / width;
+        Ok(Some(trial))
     }
 
     fn no_balance(&self, half_width: T) -> ContactError<T> {
-        ContactError::Solve(SolveError::NoEquilibrium { half_width, near: self.origin })
+        SolveError::NoEquilibrium { half_width, near: self.origin }.into()
     }
 }
 
-fn nearer<T: Real>(
-    one: TrialContact<T>,
-    other: TrialContact<T>,
-    condition: fn(&Residual<T>) -> T,
-) -> TrialContact<T> {
-    if condition(&other.residual).abs() < condition(&one.residual).abs() { other } else { one }
+/// Returns a relative step that is certain to change a number.
+fn ulps<T: Real>() -> T {
+    T::of(8.0) * T::epsilon()
 }

@@ -177,10 +177,8 @@ impl<T: Real> Single<'_, '_, T> {
     fn by_nested_search(&mut self) -> Fallible<T, ContactState<T>> {
         self.integrator.clear_samples();
         let (contact, conditions, gap) = (self.contact, self.conditions, &self.contact.gap);
-        let equations = Equations::Strength { conditions, load: conditions.load() };
-        let start = self.start_if_known();
-        let nested = one_by_one::find(contact, equations, self.integrator, start, self.cost)?;
-        let on = nested.on;
+        let (equations, start) = (Equations::Strength(conditions), self.start_if_known());
+        let (on, error) = one_by_one::find(contact, equations, self.integrator, start, self.cost)?;
         let m = self.integrator.moments(gap, on)?;
         let load = match conditions.given {
             Given::HalfWidth(_) => {
@@ -189,7 +187,6 @@ impl<T: Real> Single<'_, '_, T> {
             }
             Given::Load(load) | Given::Centre { load, .. } => load,
         };
-        let error = nested.error;
         if error > T::of(MAX_DOUBT) {
             self.may_bear()?;
         }

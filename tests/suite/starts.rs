@@ -192,6 +192,49 @@ fn first_contact_between_the_ends_of_the_start() {
     }
 }
 
+/// From a corner at 0 the gap closes at first: with g = x - c, F = L (3 L/2 - c), which falls until
+/// L = c/3. A narrow start is under tension.
+#[test]
+fn tension_grows_with_the_width_next_to_a_corner() {
+    let (brent, c) = (Brent::default(), 0.3);
+    for (sign, edges) in
+        [(1.0, [Edge::Fixed(0.0), Edge::Free]), (-1.0, [Edge::Free, Edge::Fixed(0.0)])]
+    {
+        let body = graph(-3.0, 3.0, move |x| {
+            let u = sign * x;
+            [u * (u / 2.0 - c), sign * (u - c)]
+        });
+        let contact = Contact::new(&Flat, &*body).unwrap().edges(edges[0], edges[1]);
+        let contact = contact.single_interval(true).limit_search(&brent);
+        for load in [1e-6, 0.02, 1.0] {
+            let l = (c + (c * c + 6.0 * load).sqrt()) / 3.0;
+            for narrow in [1e-9, 1e-5, 0.01, 0.15] {
+                let start = Interval { left: 0.5, right: 0.5 + 2.0 * narrow };
+                let solution = contact.clone().start(start).solve(Control::Load(load)).unwrap();
+                assert_close(solution.hull().half_width(), l, 1e-14);
+            }
+        }
+    }
+}
+
+/// With g = x³ - 4 x⁵, F = 3 L⁴/8 - 5 L⁶/4, which falls from L² = 1/5 on: a narrow start makes the
+/// load of a wide contact seem larger than it is, and there it is tension.
+#[test]
+fn beyond_the_most_that_bodies_bear_lies_tension() {
+    let brent = Brent::default();
+    let body =
+        graph(-1.0, 1.0, |x| [x.powi(4) / 4.0 - x.powi(6) / 1.5, x.powi(3) - 4.0 * x.powi(5)]);
+    let contact = Contact::new(&Flat, &*body).unwrap().single_interval(true).limit_search(&brent);
+    for l in [0.1f64, 0.2, 0.3] {
+        let load = 0.375 * l.powi(4) - 1.25 * l.powi(6);
+        for narrow in [1e-4, 1e-3, 0.01] {
+            let start = Interval { left: -narrow, right: narrow };
+            let solution = contact.clone().start(start).solve(Control::Load(load)).unwrap();
+            assert_close(solution.hull().half_width(), l, 1e-13);
+        }
+    }
+}
+
 #[test]
 fn lopsided_domains() {
     for (left, right) in [(-1.0, 3e3), (-1.0, 1e4), (-1e5, 1.0), (-0.2001, 1e9)] {

@@ -7,8 +7,9 @@
 
 use crate::gap::{Cost, Gap};
 use crate::quadrature::Engine;
-use crate::solve::equations::Equations;
+use crate::solve::equations::{Equations, Residual};
 use crate::{Ends, Fallible, Interval, Real, SolveError};
+use nalgebra::{Matrix2, Vector2};
 
 /// Number of steps; each gains three to five digits.
 const DERIVATIVE_STEPS: usize = 6;
@@ -16,60 +17,42 @@ const DERIVATIVE_STEPS: usize = 6;
 /// Step of the differences, as a share of the half-width.
 const STEP_SHARE: f64 = 1e-5;
 
-/// Returns the limits that meet the conditions, with their derivatives; with a given half-width,
-/// only the place is sought.
+/// Returns the limits that meet the conditions, with their derivatives.
 pub(super) fn differentiate<T: Real>(
     equations: &Equations<T>,
     gap: &Gap<'_, T>,
     integrator: &mut Engine<T>,
     found: Interval<T>,
-    half_width: Option<T>,
     cost: &mut Cost,
 ) -> Fallible<T, Interval<T>> {
     if T::DERIVATIVE_ORDER == 0 {
         return Ok(found);
     }
-    let (zero, half) = (T::zero(), T::of(0.5));
-    let size = found.half_width().component(0);
-    let Ends { left: left_given, right: right_given } = equations.limits();
-    let start = found.plain();
-    // Start of the limits, and their directions for each unknown: inward, to stay on the bodies.
-    let (start, ways): (Interval<T>, [[T; 2]; 2]) = match (half_width, left_given, right_given) {
-        (Some(half_width), ..) => {
-            let (left, right) = (start.centre() - half_width, start.centre() + half_width);
-            (Interval { left, right }, [[-size, -size], [zero; 2]])
-        }
-        (None, Some(left), _) => (Interval { left, ..start }, [[zero, -size], [zero; 2]]),
-        (None, _, Some(right)) => (Interval { right, ..start }, [[size, zero], [zero; 2]]),
-        (None, None, None) => (start, [[size, zero], [zero, -size]]),
-    };
-    let moved = |on: Interval<T>, [one, other]: [T; 2]| Interval {
-        left: on.left + one * ways[0][0] + other * ways[1][0],
-        right: on.right + one * ways[0][1] + other * ways[1][1],
-    };
-    let both = ways[1] != [zero; 2];
-    let mut missed = |on: Interval<T>| -> Fallible<T, [T; 2]> {
-        let residual = equations.residual(gap, on, integrator, cost)?;
-        let (at_a, at_b) = (residual.at_a, residual.at_b);
-        Ok(match (both, half_width) {
-            (true, _) => [at_b, at_a],
-            (false, Some(_)) => [at_a - at_b, zero],
-            (false, None) => [half * (at_a + at_b), zero],
+    let (start, given) = (found.plain(), equations.limits());
+    // The conditions at both edges, or one of them or their difference and what is given.
+    let mut missed = |on: Interval<T>| -> Fallible<T, Vector2<T>> {
+        let Residual { at_a, at_b, .. } = equations.residual(gap, on, integrator, cost)?;
+        Ok(match (equations.half_width(), given) {
+            (Some(wanted), _) => Vector2::new(on.half_width() - wanted, at_a - at_b),
+            (None, Ends { left: Some(left), .. }) => Vector2::new(on.left - left, at_a),
+            (None, Ends { right: Some(right), .. }) => Vector2::new(at_b, on.right - right),
+            (None, _) => Vector2::new(at_b, at_a),
         })
     };
-    let share = T::of(STEP_SHARE);
-    let at_start = missed(start)?;
-    let rate = |there: [T; 2]| [0, 1].map(|i| ((there[i] - at_start[i]) / share).component(0));
-    let by_one = rate(missed(moved(start, [share, zero]))?);
-    let by_other = if both { rate(missed(moved(start, [zero, share]))?) } else { [zero, T::one()] };
-    let determinant = by_one[0] * by_other[1] - by_other[0] * by_one[1];
+    // Inward, to stay on the bodies.
+    let size = start.half_width();
+    let (step, at_start) = (T::of(STEP_SHARE) * size, missed(start)?);
+    let by_left = (missed(Interval { left: start.left + step, ..start })? - at_start) / step;
+    let by_right = (at_start - missed(Interval { right: start.right - step, ..start })?) / step;
+    let jacobian = Matrix2::from_columns(&[by_left, by_right]).map(|rate| rate.component(0));
+    let inverse = jacobian.try_inverse().unwrap_or(jacobian);
     let mut on = start;
     for _ in 0..DERIVATIVE_STEPS {
-        let [first, second] = missed(on)?;
-        let one = (by_other[0] * second - by_other[1] * first) / determinant;
-        let other = (by_one[1] * first - by_one[0] * second) / determinant;
-        on = moved(on, [one, other]);
+        let step = inverse * missed(on)?;
+        on = Interval { left: on.left - step[0], right: on.right - step[1] };
     }
+    let Interval { left, right } = on;
+    let on = Interval { left: given.left.unwrap_or(left), right: given.right.unwrap_or(right) };
     // The result must still be the contact that the search has found, within its tolerance.
     let shift = (on.left - found.left).abs().max((on.right - found.right).abs());
     if shift <= T::of(0.25) * size {
