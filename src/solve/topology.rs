@@ -302,8 +302,8 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         let Contact { gap, edges, .. } = self.contact;
         let (mut sampler, x, slope) = (Sampler::default(), gap.range(), [T::zero(); 2]);
         let may_be = *edges == Ends::both(Edge::Free) && !gap.is_repeated();
-        let is = may_be && self.look()?.is_parallel(|x| sampler.height(gap, x).ok());
-        *self.work.cost += sampler.cost;
+        let is = may_be && self.look()?.is_parallel(gap, |x| sampler.height(gap, x).ok());
+        self.work.cost.heights += sampler.cost.evaluations;
         if is { Err(SolveError::NoFirstContact { x, slope }.into()) } else { Ok(()) }
     }
 

@@ -79,13 +79,23 @@ impl<T: Real> Survey<T> {
         self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body))
     }
 
-    /// Tells whether the gap, by its own heights, is the same wherever either body was sampled, to
-    /// the rounding of the highest place, as a formula may have added terms of its size.
-    pub fn is_parallel(&self, mut height: impl FnMut(T) -> Option<T>) -> bool {
-        let size = self.nodes.iter().fold(T::zero(), |most: T, node| most.max(node.size));
-        let (rounding, first) = (T::of(64.0) * T::epsilon() * size, height(self.nodes[0].x));
+    /// Tells whether the gap is the same wherever either body was sampled, to the rounding of the
+    /// highest place, as a formula may have added terms of its size: as far as it is known, and by
+    /// its own heights.
+    pub fn is_parallel(&self, gap: &Gap<'_, T>, mut height: impl FnMut(T) -> Option<T>) -> bool {
+        let nodes = &self.nodes;
+        let [size, doubt] = nodes.iter().fold([T::zero(); 2], |[size, doubt], node| {
+            [size.max(node.size), doubt.max(node.after)]
+        });
+        let rounding = T::of(64.0) * T::epsilon() * size;
+        let known = |node: &Node<T>| gap.turned(node.x, node.height);
+        let may_be = |node| (known(node) - known(&nodes[0])).abs() <= rounding + doubt;
+        if !nodes.iter().all(may_be) {
+            return false;
+        }
+        let first = height(nodes[0].x);
         let mut off = |x| Some((height(x)? - first?).abs());
-        self.nodes.iter().all(|node| off(node.x).is_some_and(|off| off <= rounding))
+        nodes.iter().all(|node| off(node.x).is_some_and(|off| off <= rounding))
     }
 
     /// Returns the slope of the gap at x, of bodies that are not turned, as far as it is known; at
