@@ -317,15 +317,17 @@ impl<T: Real> Survey<T> {
     }
 
     /// Takes the series of a body around both ends of an interval for guides, with the numbers of
-    /// their pieces. A closer series covers all of a piece: four exact points next to an upright end
-    /// promise a contact that needs the whole body, whose capacity then takes a thousand points.
+    /// their pieces. A closer series reaches further: next to an upright end its four points for a
+    /// first estimate promise a contact that needs the whole body, whose capacity takes a thousand.
     pub fn guide(&self, body: Which, on: Interval<T>, guides: &mut Vec<(usize, Series<T>)>) {
         let body = &self.bodies[body as usize];
         guides.clear();
         guides.extend([on.left, on.right].into_iter().filter_map(|x| {
             let panel = &body.panels[body.panels_at(x)[1]];
             let series = panel.series.map(|number| &body.series[number]);
-            series.filter(|series| !series.is_closer()).map(|series| (panel.piece, series.clone()))
+            series
+                .filter(|series| !series.is_closer() || series.is_even(on))
+                .map(|series| (panel.piece, series.clone()))
         }));
     }
 

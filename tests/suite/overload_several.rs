@@ -223,5 +223,5 @@ fn random_bodies_bear_what_the_error_says() {
     assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
     assert!(several >= 30 && touching >= 20 && nothing >= 5, "{several} {touching} {nothing}");
     // A solve takes 103 evaluations where the search for what the bodies bear takes 6 250.
-    assert!(dearest[0] <= 61.0 && dearest[1] <= 200.0, "{dearest:?}");
+    assert!(dearest[0] <= 62.0 && dearest[1] <= 200.0, "{dearest:?}");
 }

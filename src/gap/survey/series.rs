@@ -8,7 +8,7 @@
 use crate::gap::CurveSample;
 use crate::numerics::chebyshev::{Table, evaluate, primitive, values};
 use crate::profile::{Noise, Piece};
-use crate::{CurvePoint, Real};
+use crate::{CurvePoint, Interval, Real};
 use std::array::from_fn;
 
 /// Number of Chebyshev nodes of a stretch at first.
@@ -177,6 +177,18 @@ impl<T: Real> Series<T> {
 
     pub(super) fn is_closer(&self) -> bool {
         self.n == CLOSER
+    }
+
+    /// Tells whether X runs about evenly in an interval and half a width beside it: nowhere four
+    /// times as fast as elsewhere.
+    pub(super) fn is_even(&self, on: Interval<T>) -> bool {
+        let beside = on.half_width();
+        let is_near = |row: &BodyPoint<T>| row.x > on.left - beside && row.x < on.right + beside;
+        let rates = self.points().iter().zip(&self.rates).filter(|(row, _)| is_near(row));
+        let [least, most] = rates.fold([T::one() / T::zero(), T::zero()], |[least, most], at| {
+            [least.min(*at.1), most.max(*at.1)]
+        });
+        least >= T::of(0.25) * most
     }
 
     /// Returns the points that it is made from, by rising x, and their places as t.
@@ -377,7 +389,8 @@ impl<T: Real> Primitive<T> {
             series,
             missed,
             error: pair(N - 2) + (rate - by_series).abs(),
-            rounding: T::of(SERIES_ROUNDING) * T::epsilon() * size,
+            // Of as many terms as at first.
+            rounding: T::of(SERIES_ROUNDING * SAMPLES as f64 / N as f64) * T::epsilon() * size,
             pairs: [pair(2), pair(4), pair(6)],
         }
     }

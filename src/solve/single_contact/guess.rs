@@ -26,7 +26,8 @@ impl<T: Real> Single<'_, '_, T> {
     pub(super) fn initial_guess(&mut self) -> Fallible<T, Option<(Interval<T>, T)>> {
         let gap = &self.contact.gap;
         let [left, right] = gap.range();
-        let (mut span, mut on, mut at_end) = (self.start(), None, 0);
+        // A place that the survey found may have no derivative, which points near it would keep.
+        let (mut span, mut on, mut at_end) = (self.start().plain(), None, 0);
         for _ in 0..MAX_GUESSES {
             if !(span.left >= left && span.right <= right && span.left < span.right) {
                 return Ok(None);
