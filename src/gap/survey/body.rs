@@ -152,8 +152,8 @@ impl<T: Real> Body<T> {
         self.panels.iter().fold(0, |sum: usize, panel| sum.saturating_add(points(panel)))
     }
 
-    /// Refines the marked panels on some spans: samples those that are not sampled, takes a closer
-    /// series where the curve is smooth, cuts windows around the spans out of far longer panels, and
+    /// Refines the marked panels on some spans: samples those that are not sampled, cuts windows
+    /// around the spans out of far longer panels, takes closer series where the curve is smooth, and
     /// halves the others.
     pub fn refine(
         &mut self,
