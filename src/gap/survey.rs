@@ -11,8 +11,8 @@
 //!
 //! There panels are refined until their uncertainty is at most a share of F/κ; all others are left
 //! as they are. A panel far longer than the requested span gets a window cut out, a smooth one gets
-//! three times as many points, others are halved, and [runs of pieces](pieces) are divided. A heavier
-//! load continues from the panels of a lighter one, and a tilt adds a straight line.
+//! three times as many points, others are halved, and [runs of pieces](pieces) are divided. A
+//! heavier load continues from the panels of a lighter one, and a tilt adds a straight line.
 //!
 //! A gap whose slope rises from point to point by far more than its uncertainty, and at joints, is
 //! [convex](convex): where it is convex as far as a load reaches, the bodies touch in one interval.

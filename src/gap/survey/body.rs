@@ -153,8 +153,8 @@ impl<T: Real> Body<T> {
     }
 
     /// Refines the marked panels on some spans: samples those that are not sampled, cuts windows
-    /// around the spans out of far longer panels, takes closer series where the curve is smooth, and
-    /// halves the others.
+    /// around the spans out of far longer panels, takes closer series where the curve is smooth,
+    /// and halves the others.
     pub fn refine(
         &mut self,
         surface: &Surface<'_, T>,
