@@ -415,7 +415,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         {"interval": (-0.1, 0.1)},
     ),
     (
-        lambda: lc.solve(FLAT, lc.Curve((-1, 1), saw), kappa=1.0, load=0.0078),
+        lambda: lc.solve(FLAT, lc.Curve((-1, 1), saw), kappa=1.0, load=0.02),
         "BudgetSpentError",
         {"budget": (1 << 20) + 2048},
     ),
