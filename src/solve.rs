@@ -98,7 +98,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// [`SolveError::Falls`],
     /// [`EvaluationError::NoLoadDerivative`](crate::EvaluationError::NoLoadDerivative) with a given
     /// approach; the errors of [`Solution::certify`] if [`certified`](Self::certified).
-    pub fn solve(&self, control: Control<T>) -> Fallible<T, Solution<'b, T>> {
+    pub fn solve(&self, control: Control<T>) -> Result<Solution<'b, T>, ContactError<T>> {
         T::solve(self, control)
     }
 

@@ -322,12 +322,13 @@ impl<T: Real> Survey<T> {
     pub fn guide(&self, body: Which, on: Interval<T>, guides: &mut Vec<(usize, Series<T>)>) {
         let body = &self.bodies[body as usize];
         guides.clear();
-        guides.extend([on.left, on.right].into_iter().filter_map(|x| {
-            let panel = &body.panels[body.panels_at(x)[1]];
-            let series = panel.series.map(|number| &body.series[number]);
-            series
-                .filter(|series| !series.is_closer() || series.is_even(on))
-                .map(|series| (panel.piece, series.clone()))
+        let [left, right] = [on.left, on.right].map(|x| body.panels_at(x)[1]);
+        let ends = std::iter::once(left).chain((right != left).then_some(right));
+        guides.extend(ends.filter_map(|i| {
+            let panel = &body.panels[i];
+            let series = &body.series[panel.series?];
+            let serves = !series.is_closer() || series.is_even(on);
+            serves.then(|| (panel.piece, series.clone()))
         }));
     }
 

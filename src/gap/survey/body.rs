@@ -180,12 +180,12 @@ impl<T: Real> Body<T> {
                 (Some(settled), _) => self.panels.push(settled),
                 (None, Some(number)) => {
                     let series = &self.series[number];
-                    let is_short = self.window(panel, series, hull).is_some();
-                    if panel.may_be_closer(series) && !is_short {
+                    let window = self.window(panel, series, hull);
+                    if window.is_none() && panel.may_be_closer(series) {
                         self.scratch.wanted.push((self.panels.len(), true));
                         self.panels.push(*panel);
                     } else {
-                        self.split(panel, number, hull);
+                        self.split(panel, number, window);
                     }
                 }
                 (None, None) if panel.is_run() => self.panels.extend(panel.parts(surface)),
@@ -214,12 +214,11 @@ impl<T: Real> Body<T> {
         (series.doubt.is_finite() && is_short).then_some(cuts)
     }
 
-    /// Replaces a panel by its parts: a window around a span of x and the rest on either side of
-    /// it, where the old series is kept; or two halves.
-    fn split(&mut self, panel: &Panel<T>, number: usize, hull: [T; 2]) {
+    /// Replaces a panel by its parts: a window, given by its ends as t, and the rest on either side
+    /// of it, where the old series is kept; or two halves.
+    fn split(&mut self, panel: &Panel<T>, number: usize, window: Option<[T; 2]>) {
         let (series, half) = (&self.series[number], T::of(0.5));
         let [start, end] = panel.k.map(|k| series.t(k));
-        let window = self.window(panel, series, hull);
         let cuts = window.unwrap_or([half * (start + end), end]);
         let (mut rest, mut is_left) = (*panel, true);
         for t in cuts.into_iter().filter(|&t| t > start && t < end) {

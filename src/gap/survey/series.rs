@@ -362,9 +362,6 @@ impl<T: Real> Primitive<T> {
     }
 
     /// Makes the series from values and rates at nodes, and at the additional point.
-    /// Makes the series from values and rates at nodes, and at the additional point.
-    /// Makes the series from values and rates at nodes, and at the additional point.
-    /// Makes the series from values and rates at nodes, and at the additional point.
     fn new<const N: usize>(at: [[T; 2]; N], [probe, rate]: [T; 2]) -> Self {
         let (zero, table) = (T::zero(), Table::of(N));
         let c = table.coefficients(&at.map(|[_, rate]| rate));
