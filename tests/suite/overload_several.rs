@@ -158,7 +158,7 @@ fn random_scene(i: usize, shares: &mut Shares) -> ([f64; 2], Profile, Option<f64
 fn random_bodies_bear_what_the_error_says() {
     let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(150);
     let (mut shares, mut several, mut touching, mut nothing) = (Shares(1), 0, 0, 0);
-    let (mut faults, mut dearest, mut most) = (Vec::new(), [0.0f64; 2], 0);
+    let (mut faults, mut dearest) = (Vec::new(), [0.0f64; 2]);
     for i in 0..count {
         let ([from, to], body, at) = random_scene(i, &mut shares);
         let body = Counting(body, &AtomicUsize::new(0));
@@ -200,7 +200,6 @@ fn random_bodies_bear_what_the_error_says() {
             }
         };
         let dearer = taken as f64 / body.1.load(Ordering::Relaxed).max(100) as f64;
-        most = most.max(taken);
         let kind = &mut dearest[usize::from(at.is_some())];
         *kind = kind.max(dearer);
         let room = [from, to].map(|end| under.gap_at(end).unwrap_or(0.0));
@@ -223,8 +222,6 @@ fn random_bodies_bear_what_the_error_says() {
     );
     assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
     assert!(several >= 30 && touching >= 20 && nothing >= 5, "{several} {touching} {nothing}");
-    // The dearest ratio is of a solve of 103 evaluations, which were 114 at 60: the search itself is
-    // bounded, too.
+    // The dearest takes 6 354 evaluations where a solve takes 103. (They were 6 411 and 114.)
     assert!(dearest[0] <= 62.0 && dearest[1] <= 200.0, "{dearest:?}");
-    assert!(most <= 6_800, "{most}");
 }
