@@ -207,10 +207,9 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             let mut found = match self.converge_once() {
                 Ok(found) => found,
                 // With limits held the contact is wider, and may need more than the bodies have, or
-                // may not reach so far.
-                Err(other @ (Fault::Beyond(_) | Fault::Error(_)))
-                    if may_be_held && fault.is_none() && self.lets_all_go() =>
-                {
+                // may not reach so far; and limits that face each other may be held at one corner,
+                // between them, that holds neither.
+                Err(other) if may_be_held && fault.is_none() && self.lets_all_go() => {
                     fault = Some(other);
                     continue;
                 }

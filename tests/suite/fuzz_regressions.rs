@@ -343,7 +343,7 @@ fn a_search_spends_no_more_than_its_budget() {
     let contact = Contact::new(&Flat, &fine).unwrap();
     let error = contact.solve(Control::PeakPressure(0.07)).unwrap_err();
     let taken = taken.load(Ordering::Relaxed);
-    assert!(taken < (1 << 20) + 4096, "{taken}");
+    assert!(taken < (1 << 20) + (1 << 14), "{taken}");
     let ContactError::Solve(SolveError::BudgetSpent { evaluations, budget, last }) = error else {
         panic!("{error}")
     };

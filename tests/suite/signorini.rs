@@ -17,6 +17,7 @@
 mod equal_crests;
 mod features;
 mod inner_corners;
+mod lugs;
 mod right_answers;
 
 use crate::random_scenes::Dice;

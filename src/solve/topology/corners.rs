@@ -9,7 +9,7 @@
 //! |---|---|
 //! | free, next to a corner, or beyond one at an end | held there |
 //! | free, beyond a corner by hardly more than x is known | held there |
-//! | held, and nothing found | let go, where it was |
+//! | held, and nothing found, contacts that vanish or meet included | let go, where it was |
 //! | held, K < 0 | let go inward, the lowest first |
 //! | held, K > 0, inside the bodies | put beyond the corner by d, the furthest first |
 //! | held, K > 0, d/L less than the rounding of x over d | held: d is the error of the limit |

@@ -2,7 +2,7 @@
 //! corners inside the bodies, or next to them.
 
 use super::{Bodies, Dice, Tally, judge_closer, scenes};
-use crate::boundary_elements::solve;
+use crate::boundary_elements::{Oracle, solve};
 use crate::common::{Profile, join};
 use linecontact::{
     Contact, Control, Curve, CurvePoint, Edge, Flat, Interval, Material, PlaneState, Reference,
@@ -320,27 +320,34 @@ fn boundary_elements_agree() {
                     continue;
                 }
             };
-            let found = solution.contacts().unwrap();
-            if found.len() != oracle.contacts.len() {
-                faults.push(format!("{seed} {scene:?}: {solution}, {:?}", oracle.contacts));
-                continue;
-            }
-            for ((one, on), error) in found.iter().zip(&oracle.contacts).zip(&oracle.errors) {
-                // The cells next to infinite pressures leave an error that moves narrow contacts.
-                let width = |on: Interval<f64>| on.right - on.left;
-                let least = 0.01 * width(one.interval).max(0.01 * width(solution.hull()));
-                let off = [one.interval.left - on.left, one.interval.right - on.right];
-                let is_off = |(off, error): (f64, &f64)| off.abs() > least.max(3.0 * error);
-                let share = (oracle.load_in(*on) - one.load).abs() / scene.load;
-                if off.into_iter().zip(error).any(is_off) || share >= 0.01 {
-                    faults.push(format!("{seed} {scene:?}: {on:?} {share:e} {solution}"));
-                }
+            if let Some(fault) = unlike(&oracle, &solution) {
+                faults.push(format!("{seed} {scene:?}: {fault}"));
             }
             judged += 1;
         }
     }
     println!("{judged} judged");
     assert!(judged > 0 && faults.is_empty(), "{}: {}", faults.len(), faults.join("\n"));
+}
+
+/// Says how a solution differs from boundary elements in its contacts or the load of each.
+pub fn unlike(oracle: &Oracle, solution: &Solution<f64>) -> Option<String> {
+    let found = solution.contacts().unwrap();
+    if found.len() != oracle.contacts.len() {
+        return Some(format!("{solution}, {:?}", oracle.contacts));
+    }
+    let both = found.iter().zip(&oracle.contacts).zip(&oracle.errors);
+    let faults = both.filter_map(|((one, on), error)| {
+        // The cells next to infinite pressures leave an error that moves narrow contacts.
+        let width = |on: Interval<f64>| on.right - on.left;
+        let least = 0.01 * width(one.interval).max(0.01 * width(solution.hull()));
+        let off = [one.interval.left - on.left, one.interval.right - on.right];
+        let is_off = |(off, error): (f64, &f64)| off.abs() > least.max(3.0 * error);
+        let share = (oracle.load_in(*on) - one.load).abs() / solution.load();
+        let is_wrong = off.into_iter().zip(error).any(is_off) || share >= 0.01;
+        is_wrong.then(|| format!("{on:?} {share:e} {solution}"))
+    });
+    faults.reduce(|one, other| one + ", " + &other)
 }
 
 /// The approach under a load leads to this load again. (In the seeds at the end, a single contact
