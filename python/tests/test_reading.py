@@ -59,6 +59,8 @@ TEXTS = {
     "units as last words": "Lateral mm,Raw Micrometer,\n0.0,1.5,\n0.1,-2.5,\n0.2,0.5,\n",
     "units with underscores": "X_(millimetres),Z_(microns)\n0.0,1.5\n0.1,-2.5\n0.2,0.5\n",
     "units between blanks": "x\tz\nmm µm\n0.0\t1.5\n0.1\t-2.5\n0.2\t0.5\n",
+    "two numbers above": "1601\t.005\nX [mm]\tZ [um]\n0.0\t1.5\n0.1\t-2.5\n0.2\t0.5\n",
+    "remarks above": "x [mm] z [um]\n1601 points\nR = 300 mm\n26.11.2026 14:30\n0.0 1.5\n0.1 -2.5\n0.2 0.5\n",
     "a title with a unit": "Roller, radius 10 mm\nx in mm, z in um\n0.0,1.5\n0.1,-2.5\n0.2,0.5\n",
 }
 
@@ -113,6 +115,30 @@ def test_marks_of_points_that_were_not_measured(mark: str, tmp_path: Path) -> No
     assert found.missing == 3 and found.points[:, 0].round(9).tolist() == [0.1, 0.2, 0.3, 0.5, 0.6, 0.7, 0.8]
     with pytest.raises(lc.errors.MeasuredFileError, match="not measured: skip_missing=True"):
         lc.read_profile(file)
+
+
+@pytest.mark.parametrize("columns", [(2, 3), ("x_mm", "z_um")])
+@pytest.mark.parametrize("flags", [["OK"] * 4, ["OK", "OK", "bad", "OK"], ["OK", "bad", "", "1"]])
+def test_words_in_other_columns(flags: list[str], columns: Any, tmp_path: Path) -> None:
+    rows = [f"{i},{0.1 * i:.1f},{i * i},{flag}\n" for i, flag in enumerate(flags)]
+    file = written(tmp_path, "flags.csv", "i,x_mm,z_um,flag\n" + "".join(rows))
+    found = lc.read_profile(file, columns=columns)
+    assert found.points.round(9).tolist() == [[0, 0], [0.1, 1], [0.2, 4], [0.3, 9]] and found.unit == ""
+    with pytest.raises(lc.errors.MeasuredFileError, match="4 columns: .* such as columns="):
+        lc.read_profile(file)
+
+
+@pytest.mark.parametrize("row", ["{};-3.5", "{};-3.5;OK"])
+@pytest.mark.parametrize("x", ["-4,000.000", "-4 000.000", "-4'000.000", "-4.000,000", "−4.0*", "-4.0 um"])
+def test_no_row_is_dropped(x: str, row: str, tmp_path: Path) -> None:
+    """Not those that are none by their separators of thousands or flags, at either end."""
+    good, columns = [row.format(i) for i in range(-3, 9)], (1, 2) if "OK" in row else None
+    for bad, lines in ((2, ["", *good]), (14, [*good, "", "end"])):
+        lines.insert(bad - 1 if bad > 2 else 1, row.format(x))
+        file = written(tmp_path, "rows.txt", "\n".join(lines))
+        with pytest.raises(lc.errors.MeasuredFileError, match=f"{re.escape(x)}. and '-3.5' look like data") as raised:
+            lc.read_profile(file, columns=columns)
+        assert raised.value.line == bad
 
 
 def test_numbers_below_the_table(tmp_path: Path) -> None:
