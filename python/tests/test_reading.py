@@ -122,7 +122,8 @@ def test_marks_of_points_that_were_not_measured(mark: str, tmp_path: Path) -> No
 def test_words_in_other_columns(flags: list[str], columns: Any, tmp_path: Path) -> None:
     rows = [f"{i},{0.1 * i:.1f},{i * i},{flag}\n" for i, flag in enumerate(flags)]
     file = written(tmp_path, "flags.csv", "i,x_mm,z_um,flag\n" + "".join(rows))
-    found = lc.read_profile(file, columns=columns)
+    with pytest.warns(UserWarning, match=r"flags.csv states no units: .* file_units=\('mm', 'um'\)"):
+        found = lc.read_profile(file, columns=columns)
     assert found.points.round(9).tolist() == [[0, 0], [0.1, 1], [0.2, 4], [0.3, 9]] and found.unit == ""
     with pytest.raises(lc.errors.MeasuredFileError, match="4 columns: .* such as columns="):
         lc.read_profile(file)

@@ -8,6 +8,7 @@ nine other packages, is under the GPL and reads no profiles from X3P; sdfio and 
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Sequence
 from os import PathLike, fspath
 from pathlib import Path
@@ -67,7 +68,7 @@ class MeasuredProfile(NamedTuple):
     points : ndarray, shape (n, 2)
         Rows of x and z, lengths in the unit, by rising x.
     unit : str
-        Unit of x and z; "" if a text states none.
+        Unit of x and z; "" if a text states none, which you are warned of.
     missing : int
         Number of points of the file that are left out, since they were not measured.
 
@@ -212,7 +213,10 @@ def read_profile(
     if unit is not None and not units[0]:
         raise MeasuredFileError(name, "states no units: give file_units, such as ('mm', 'um')")
     wanted = units[0] if unit is None else unit
-    if wanted:
+    if not wanted:
+        says = "states no units: heights are taken to be in that of x. file_units=('mm', 'um') states those of x and z"
+        warnings.warn(f"{name} {says}", stacklevel=2)
+    else:
         points = points * [_METRES[given] / _METRES[wanted] for given in units]
     places = _measured(name, points, lines, skip_missing)
     missing = len(points) - len(places)
