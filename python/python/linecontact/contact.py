@@ -617,6 +617,9 @@ class Contact(Unchanging):
             raise TypeError("contact_modulus, materials and kappa say the same: give one of them")
         if edges is not None and edge_pressure is not None:
             raise TypeError("edges and edge_pressure exclude each other: give one of them")
+        if edges is not None and not (isinstance(edges, Sequence) and [*map(type, edges)] == [Edge, Edge]):
+            kinds = "Edge.free(), .fixed(x), .free_until(x) or .adhesive(work)"
+            raise TypeError(f"edges are {edges!r}: give the left and the right one, each {kinds}")
         if tolerance is not None:
             if quadrature is not None:
                 raise TypeError("the tolerance is that of Panels: give it there, or no quadrature")
