@@ -120,26 +120,13 @@ def test_marks_of_points_that_were_not_measured(mark: str, tmp_path: Path) -> No
 @pytest.mark.parametrize("columns", [(2, 3), ("x_mm", "z_um")])
 @pytest.mark.parametrize("flags", [["OK"] * 4, ["OK", "OK", "bad", "OK"], ["OK", "bad", "", "1"]])
 def test_words_in_other_columns(flags: list[str], columns: Any, tmp_path: Path) -> None:
-    rows = [f"{i},{0.1 * i:.1f},{i * i},{flag}\n" for i, flag in enumerate(flags)]
-    file = written(tmp_path, "flags.csv", "i,x_mm,z_um,flag\n" + "".join(rows))
+    text = "i,x_mm,z_um,flag\n" + "".join(f"{i},{0.1 * i:.1f},{i * i},{flag}\n" for i, flag in enumerate(flags))
+    file = written(tmp_path, "flags.csv", text)
     with pytest.warns(UserWarning, match=r"flags.csv states no units: .* file_units=\('mm', 'um'\)"):
         found = lc.read_profile(file, columns=columns)
     assert found.points.round(9).tolist() == [[0, 0], [0.1, 1], [0.2, 4], [0.3, 9]] and found.unit == ""
     with pytest.raises(lc.errors.MeasuredFileError, match="4 columns: .* such as columns="):
         lc.read_profile(file)
-
-
-@pytest.mark.parametrize("row", ["{};-3.5", "{};-3.5;OK"])
-@pytest.mark.parametrize("x", ["-4,000.000", "-4 000.000", "-4'000.000", "-4.000,000", "−4.0*", "-4.0 um"])
-def test_no_row_is_dropped(x: str, row: str, tmp_path: Path) -> None:
-    """Not those that are none by their separators of thousands or flags, at either end."""
-    good, columns = [row.format(i) for i in range(-3, 9)], (1, 2) if "OK" in row else None
-    for bad, lines in ((2, ["", *good]), (14, [*good, "", "end"])):
-        lines.insert(bad - 1 if bad > 2 else 1, row.format(x))
-        file = written(tmp_path, "rows.txt", "\n".join(lines))
-        with pytest.raises(lc.errors.MeasuredFileError, match=f"{re.escape(x)}. and '-3.5' look like data") as raised:
-            lc.read_profile(file, columns=columns)
-        assert raised.value.line == bad
 
 
 def test_numbers_below_the_table(tmp_path: Path) -> None:
@@ -506,6 +493,12 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("word.csv", b"0;1\n1;two\n", {}, {"line": 2}, "'two' are no two numbers"),
     ("thousands.csv", b"0;1\n1;1.234,5\n", {}, {"line": 2}, "are no two numbers"),
     ("mixed.csv", b"0.5;1\n1,5;2\n", {}, {"line": 2}, "decimal point, and others with a comma"),
+    *(
+        (f"stray{i}.csv", f"n;m\n{x};-3.5\n-3;1\n-2;1\n".encode(), {}, {"line": 2}, "and '-3.5' look like data")
+        for i, x in enumerate(["-4,000.000", "-4 000.000", "-4'000.000", "-4.000,000", "−4.0*", "-4.0 um"])
+    ),
+    ("flag.csv", b"-4\t-3.5*\n-3\t1\n-2\t1\n", {}, {"line": 1}, "and '-3.5[*]' look like data"),
+    ("late.csv", b"0;1;OK\n1;2;OK\n1,000.0;3;OK\nend\n", {"columns": (1, 2)}, {"line": 3}, "'3' look like data"),
     ("score.csv", b"0;1\n1;1_000\n", {}, {"line": 2}, "are no two numbers"),
     ("infinite.csv", b"0;1\n1;inf\n2;3\n", {}, {"line": 2}, "infinite"),
     # As C prints them on Windows; a remark does not begin within a number.

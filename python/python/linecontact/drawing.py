@@ -85,9 +85,7 @@ def heights(contact: Contact, body: Body, x: FloatArray) -> FloatArray:
     return body.heights(x)
 
 
-def before_loading(
-    contact: Contact, x: FloatArray, tilt: float = 0.0
-) -> tuple[FloatArray, FloatArray]:
+def before_loading(contact: Contact, x: FloatArray, tilt: float = 0.0) -> tuple[FloatArray, FloatArray]:
     """Returns the heights of both bodies, brought together until they just touch."""
     lower, upper = heights(contact, contact.lower, x), heights(contact, contact.upper, x) + tilt * x
     shown = np.isfinite(lower) & np.isfinite(upper)
@@ -163,9 +161,8 @@ def plot_roller(state: RollerState, units: Sequence[str]) -> Figure:
         axes.stairs(values, ends, color="#08519c")
         axes.set_ylim(bottom=0.0)
         axes.set_ylabel(label)
-    # A force: that of each unit of length, by the length.
-    per_length = units[2].removesuffix(f"/{units[0]}")
-    force = per_length if per_length != units[2] else f"{units[2]} {units[0]}"
+    force, _, length = units[2].rpartition("/")
+    force = force if length == units[0] else f"{units[2]} {units[0]}"
     loads.set_title(f"load {state.load:.6g} {force}".rstrip() + f", misalignment {state.misalignment:.6g} rad")
     pressures.set_xlabel(along)
     return figure

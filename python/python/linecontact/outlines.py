@@ -185,9 +185,9 @@ def read_outline(
         begins, ends = chord - 2.0 * math.atan(bulge), chord + 2.0 * math.atan(bulge)
         if run <= 0.0 or max(abs(begins), abs(ends)) > 0.5 * math.pi + _TANGENT:
             where = f"from ({start[0]:g}, {start[1]:g}) to ({end[0]:g}, {end[1]:g})"
-            is_upright = abs(run) <= _TANGENT * math.dist(start, end)
-            says = "is upright: give it a small run, such as 1e-6 of its height" if is_upright else "turns back in x: end it there"
-            raise MeasuredFileError(name, f"segment {number} of the polyline, {where}, {says}")
+            upright = "is upright: give it a small run, such as 1e-6 of its height"
+            fault = upright if abs(run) <= _TANGENT * math.dist(start, end) else "turns back in x: end it there"
+            raise MeasuredFileError(name, f"segment {number} of the polyline, {where}, {fault}")
         if abs(begins - angle) > _TANGENT:
             outline = outline.corner(math.tan(max(-0.5 * math.pi, min(0.5 * math.pi, begins))))
         outline = outline.arc(_radius(start, end, bulge), run) if bulge else outline.line(run)
@@ -237,8 +237,7 @@ def _polyline(name: str, layer: str | None) -> tuple[list[_Edge], bool, str]:
         if len({one.dxf.layer for one in lines}) == 1:
             remedy = f"they share the layer {lines[0].dxf.layer!r}: move the one that is meant to a layer of its own"
         elif not there:
-            kinds = sorted(Counter(one.dxftype() for one in space).items())
-            found = ", ".join(f"{count} {kind}" for kind, count in kinds) or "no entities"
+            found = dict(Counter(one.dxftype() for one in space))
             remedy = f"join lines and arcs to a polyline first, explode blocks, turn splines into arcs: there are {found}"
         raise MeasuredFileError(name, f"{len(lines)} polylines{on}: {remedy}")
     [line] = lines

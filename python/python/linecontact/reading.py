@@ -287,11 +287,11 @@ def _text(
     if min(x, z) < 1 or max(x, z) > width or x == z:
         raise MeasuredFileError(name, f"columns are {columns}: give two of 1 to {width}", first + 1)
     above = [at for at, line in enumerate(lines[:first]) if any(_cells(line, delimiter))]
-    while above and _is_like_a_row(cells := _cells(lines[above[-1]], delimiter), x, z):
-        first = above.pop()
+    while above and (stray := _stray(name, cells := _cells(lines[above[-1]], delimiter), above[-1] + 1, x, z)):
         # Words of other columns may differ from row to row.
         if width == 2 or len(cells) < width or None in (_number(cells[x - 1]), _number(cells[z - 1])):
-            raise _stray(name, cells, first + 1, x, z)
+            raise stray
+        first = above.pop()
     table, places = _table(name, lines, first, delimiter, width, x, z)
     numbers = [[_number(cell) for cell in cells[:width]] for cells in table]
     points = np.array(numbers, dtype=np.float64)
@@ -322,9 +322,8 @@ def _table(
     rows = [(cells, line) for cells, line in rows if any(cells)]
     [lead, *_] = _filled(rows[0][0])
     while len(rows[-1][0]) < lead or _number(rows[-1][0][lead - 1]) is None:
-        cells, line = rows.pop()
-        if _is_like_a_row(cells, x, z):
-            raise _stray(name, cells, line, x, z)
+        if stray := _stray(name, *rows.pop(), x, z):
+            raise stray
     empty = [line for line, content in enumerate(lines[first:], first + 1) if not content.strip()]
     body = [cells for cells, line in rows if not empty or line < empty[0]]
     if _is_footer(body, [cells for cells, _ in rows[len(body) :]], width):
@@ -339,17 +338,13 @@ def _table(
     return [cells for cells, _ in rows], [line for _, line in rows]
 
 
-def _is_like_a_row(cells: Sequence[str], x: int, z: int) -> bool:
-    """Tells whether a line of the header or the footer may be one of the table."""
-    if len(cells) < max(x, z) or not _LIKE_A_NUMBER.match(cells[x - 1]):
-        return False
-    return bool(_LIKE_A_NUMBER.match(cells[z - 1]) or _NO_NUMBER.fullmatch(cells[z - 1]))
-
-
-def _stray(name: str, cells: Sequence[str], line: int, x: int, z: int) -> MeasuredFileError:
-    reason = f"{cells[x - 1]!r} and {cells[z - 1]!r} look like data, but this is no line of the table"
+def _stray(name: str, cells: Sequence[str], line: int, x: int, z: int) -> MeasuredFileError | None:
+    """Returns the error of a line of the header or the footer that may be one of the table, if it may be."""
+    at, height = [cells[column - 1] if column <= len(cells) else "" for column in (x, z)]
+    if not _LIKE_A_NUMBER.match(at) or not (_LIKE_A_NUMBER.match(height) or _NO_NUMBER.fullmatch(height)):
+        return None
     remedy = "take out separators of thousands, units and flags; put # in front of it if it is a remark"
-    return MeasuredFileError(name, f"{reason}: {remedy}", line)
+    return MeasuredFileError(name, f"{at!r} and {height!r} look like data, but this is no line of the table: {remedy}", line)
 
 
 def _commas(table: Sequence[list[str]], delimiter: str | None) -> str:
@@ -404,11 +399,6 @@ def _filled(cells: Sequence[str]) -> list[int]:
     return [at for at, cell in enumerate(cells, 1) if cell and _number(cell) is not None]
 
 
-def _below(lines: Sequence[str], at: int, delimiter: str | None) -> list[str]:
-    """Returns the cells of the next line that has any."""
-    return next((cells for line in lines[at + 1 :] if any(cells := _cells(line, delimiter))), [""])
-
-
 def _first_row(name: str, lines: Sequence[str]) -> tuple[int, str | None, int]:
     """Returns the first line of numbers, the delimiter of its columns, and their number.
 
@@ -425,10 +415,12 @@ def _first_row(name: str, lines: Sequence[str]) -> tuple[int, str | None, int]:
                 cells.pop()
             if len(cells) > 1 and cells[0] and None not in map(_number, cells) and not _NO_NUMBER.fullmatch(cells[0]):
                 passed.append((at, delimiter, len(cells)))
-                if _number(_below(lines, at, delimiter)[0]) is not None:
+                below = next((cells for line in lines[at + 1 :] if any(cells := _cells(line, delimiter))), [""])
+                if _number(below[0]) is not None:
                     return next(one for one in passed if one[1:] == passed[-1][1:])
                 break
-            if not wordy and len(there := _filled(cells)) > 1 and {*there}.issubset(_filled(_below(lines, at, delimiter))):
+            below = _cells("".join(lines[at + 1 : at + 2]), delimiter)
+            if not wordy and len(there := _filled(cells)) > 1 and {*there}.issubset(_filled(below)):
                 wordy.append((at, delimiter, len(cells)))
     if wordy or passed:
         return (wordy or passed)[0]
