@@ -94,7 +94,7 @@ def _places(rows: Sequence[Row]) -> dict[str, list[str]]:
 
 
 def _fields(solution: Solution) -> dict[str, FloatArray]:
-    """Returns the pressures, at places denser at both limits, and all stresses, those of one body with its name."""
+    """Returns pressures, denser at both limits, and stresses, those of one body with its name."""
     x = solution.centre - solution.half_width * np.cos(np.pi * (np.arange(_PLACES) + 0.5) / _PLACES)
     found = {"x": x, "pressure": solution.pressure(x)}
     for body, deepest in bodies(solution.contact):

@@ -125,7 +125,7 @@ class Outline:
 def read_outline(
     path: str | PathLike[str], *, layer: str | None = None, facing: Literal["up", "down"] | None = None
 ) -> Outline:
-    """Reads a polyline of lines and arcs from a DXF file, in the unit of the file: `unit` of the outline.
+    """Reads a polyline of lines and arcs from a DXF file, in the `unit` of the file.
 
     Needs ezdxf: ``pip install './python[dxf]'``. The arcs are those of the polyline, by its
     bulges: exact. Segments that meet at less than 1e-6 radians are tangent.

@@ -339,7 +339,7 @@ def _table(
 
 
 def _stray(name: str, cells: Sequence[str], line: int, x: int, z: int) -> MeasuredFileError | None:
-    """Returns the error of a line of the header or the footer that may be one of the table, if it may be."""
+    """Returns the error of a line above or below the table that may be one of it."""
     at, height = [cells[column - 1] if column <= len(cells) else "" for column in (x, z)]
     if not _LIKE_A_NUMBER.match(at) or not (_LIKE_A_NUMBER.match(height) or _NO_NUMBER.fullmatch(height)):
         return None
