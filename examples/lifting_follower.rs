@@ -161,7 +161,7 @@ fn lift(run: &Run) -> Panel {
         .dashed(cam, GRAY, "cam")
 }
 
-/// Draws the envelope of the load: its least and its largest value within 4.5°, since a contact that
+/// Draws the envelope of the load: its least and its largest value within 4.5°. A contact that
 /// nothing damps vibrates hundreds of times in a turn.
 fn load(run: &Run) -> Panel {
     const WITHIN: usize = STEPS / 80;
