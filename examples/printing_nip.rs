@@ -124,15 +124,14 @@ fn shade(i: usize, of: usize) -> drawing::RGBColor {
 }
 
 fn of_widths(widths: &[(f64, f64, f64)]) -> Panel {
-    let axes = (("thickness of the cover / mm", [0.3, 1.8]), ("nip width / mm", [0.0, 80.0]));
+    let axes = (("thickness of the cover / mm", [0.0, 62.0]), ("nip width / mm", [0.0, 80.0]));
     let panel = Panel::new("Nip width, and that of a half-plane (dashed)", axes.0, axes.1)
         .size(400, 220)
-        .powers(true, false)
         .legend(SeriesLabelPosition::UpperLeft);
     LOADS.into_iter().enumerate().fold(panel, |panel, (i, load)| {
         let own = widths.iter().filter(|width| width.1 == load);
-        let points: Points = own.map(|&(thickness, _, width)| (thickness.log10(), width)).collect();
-        let plain = vec![(0.3, 2.0 * hertz(load)), (1.8, 2.0 * hertz(load))];
+        let points: Points = own.map(|&(thickness, _, width)| (thickness, width)).collect();
+        let plain = vec![(0.0, 2.0 * hertz(load)), (62.0, 2.0 * hertz(load))];
         let color = shade(i, LOADS.len());
         panel.line(points, color, &format!("{load} N/mm")).dashed(plain, color, "")
     })

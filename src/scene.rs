@@ -40,7 +40,7 @@ pub use shape::{PlacedShape, Shape, Step};
 pub use text::SceneError;
 
 use crate::{Contact, ContactError, Control, Edge, Ends, Foundation, PlaneState, Real, References};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, de};
 
 /// Contents of a file: a [`Contact`], and the quantities to prescribe.
 ///
@@ -69,7 +69,7 @@ pub struct Scene<T> {
     #[serde(default, skip_serializing_if = "Units::is_empty")]
     pub units: Units,
     /// Source of κ; without it κ = 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "possible", skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<Stiffness<T>>,
     /// Conditions at the edges: [`Contact::edges`]. Without them both edges are free.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -115,6 +115,17 @@ pub enum Stiffness<T> {
         #[serde(default)]
         plane: PlaneState,
     },
+}
+
+/// Reads a stiffness, and refuses one that no contact can have.
+fn possible<'de, T: Real + Deserialize<'de>, D: Deserializer<'de>>(
+    file: D,
+) -> Result<Option<Stiffness<T>>, D::Error> {
+    let stiffness = Option::deserialize(file)?;
+    let level = Scene { stiffness, ..Scene::new(Shape::Flat, Shape::Flat) }.contact();
+    let check = |contact: Contact<'_, T>| contact.check(Control::Load(T::one()));
+    level.and_then(check).map_err(de::Error::custom)?;
+    Ok(stiffness)
 }
 
 /// Labels of the units that the numbers of a scene are in. They are printed, and convert nothing;
@@ -163,8 +174,8 @@ impl<T: Real> Scene<T> {
     /// # Errors
     /// As [`Contact::owned`], and [`PlacedShape::build`].
     pub fn contact(&self) -> Result<Contact<'static, T>, ContactError<T>> {
-        let mut contact = Contact::owned(self.lower.build()?, self.upper.build()?)?;
-        contact = match self.stiffness {
+        let contact = Contact::owned(self.lower.build()?, self.upper.build()?)?;
+        let mut contact = match self.stiffness {
             None => contact,
             Some(Stiffness::ContactModulus(modulus)) => contact.contact_modulus(modulus),
             Some(Stiffness::Kappa(kappa)) => contact.kappa(kappa),
@@ -175,10 +186,9 @@ impl<T: Real> Scene<T> {
         if let Some(Ends { left, right }) = self.edges {
             contact = contact.edges(left, right);
         }
-        contact = contact.with_resolution(self.resolution);
         if let Some(period) = self.period {
             contact = contact.period(period);
         }
-        Ok(contact.certified(self.certified))
+        Ok(contact.with_resolution(self.resolution).certified(self.certified))
     }
 }

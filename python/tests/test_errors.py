@@ -716,6 +716,8 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     (lambda: ANY.Line(0.1, 1.0), TypeError, ("domain is 1.0", "such as (-1.0, 1.0)")),
     (lambda: ANY.Curve(2.0, scalar_cosh), TypeError, ("domain is 2.0", "two numbers")),
     (lambda: contact(start=0.5), TypeError, ("start is 0.5", "two numbers")),
+    (lambda: contact(edges=("free", "free")), TypeError, ("edges are ('free', 'free')", "each Edge.free(), .fixed(x)")),
+    (lambda: contact(edges=lc.Edge.free()), TypeError, ("edges are Edge(kind='free'", "the left and the right one")),
     (lambda: ANY.Parabola("10", (-1, 1)), TypeError, ("radius is '10'", "give one number")),
     (lambda: ANY.Reference("disc", "10"), TypeError, ("radius is '10'", "give one number")),
     (lambda: ANY.Reference("disk", 10.0), ValueError, ("a reference is 'disk'", "'disc'")),

@@ -81,6 +81,7 @@ def test_pictures() -> None:
     figure = CROWNED.under_load(5000.0, 1e-3).plot(units=("mm", "MPa", "N/mm"))
     labels = [axes.get_ylabel() for axes in figure.axes]
     assert labels == ["load per unit length / N/mm", "largest pressure / MPa"]
+    assert figure.axes[0].get_title() == "load 5000 N, misalignment 0.001 rad"
     assert figure.axes[1].get_xlabel() == "z / mm"
     punch = lc.Contact(
         lc.Flat(),

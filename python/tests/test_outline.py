@@ -89,10 +89,10 @@ ezdxf: Any = pytest.importorskip("ezdxf")
 
 
 def drawn(folder: Path, *polylines: list[tuple[float, float, float]], old: bool = False, **attributes: Any) -> Path:
-    """Writes polylines of x, y and bulge, each on a layer of its own."""
-    drawing = ezdxf.new("R2010")
+    """Writes polylines of x, y and bulge, each on a layer of its own, in inches."""
+    drawing = ezdxf.new("R2010", units=1)
     for at, points in enumerate(polylines):
-        given = {"dxfattribs": {"layer": f"part{at}", **attributes.get("dxf", {})}}
+        given = {"dxfattribs": {"layer": attributes.get("layer", f"part{at}"), **attributes.get("dxf", {})}}
         space = drawing.modelspace()
         if old:
             line = space.add_polyline2d(points, format="xyb", **given)
@@ -123,7 +123,7 @@ def test_a_polyline_with_bulges(old: bool, way: str, tmp_path: Path) -> None:
         points = [(-x, y, -b) for x, y, b in points]
         given = {"dxf": {"extrusion": (0, 0, -1)}}
     outline = lc.read_outline(drawn(tmp_path, points, old=old, **given))
-    assert [name for name, _ in outline.steps] == ["line", "arc", "line"]
+    assert [name for name, _ in outline.steps] == ["line", "arc", "line"] and outline.mirrored().unit == "in"
     np.testing.assert_allclose([*outline.steps[1][1]], [10.0, 3.0], rtol=1e-14)
     want = lc.Outline().line(4.0).arc(10.0, 3.0).line(2.0).body()
     np.testing.assert_allclose(ends(outline.body()), ends(want), rtol=1e-14, atol=1e-15)
@@ -155,6 +155,10 @@ def test_a_closed_polyline(is_reversed: bool, tmp_path: Path) -> None:
     np.testing.assert_allclose(ends(lower), [(-5, 1), (-4, 0), (4, 0), (5, 1)], atol=1e-14)
     with pytest.raises(lc.errors.MeasuredFileError, match="is closed: facing='up' takes its upper part"):
         lc.read_outline(file)
+    # An upright side between the ends is none to be left out.
+    groove = [(1.0, 4.0, 0.0), (1.0, 3.0, 0.0), (-1.0, 3.0, 0.0), (-1.0, 4.0, 0.0), (-5.0, 4.0, 0.0), (5.0, 1.0, 0.0), (5.0, 4.0, 0.0)]
+    with pytest.raises(lc.errors.MeasuredFileError, match=r"from .-1, 4. to .-1, 3., is upright"):
+        lc.read_outline(drawn(tmp_path, groove, close=True), facing="up")
     circle = drawn(tmp_path, [(-2.0, 0.0, 1.0), (2.0, 0.0, 1.0)], close=True)
     for facing, height in (("up", 2.0), ("down", -2.0)):
         half = lc.read_outline(circle, facing=facing).body()  # type: ignore[arg-type]
@@ -176,13 +180,19 @@ def test_drawings_that_cannot_be_read(tmp_path: Path, monkeypatch: pytest.Monkey
         assert raised.value.path == str(file)
 
     refused(drawn(tmp_path, [(0.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.5, 2.0, 0.0), (3.0, 3.0, 0.0)]), "segment 2 of the polyline, from .1, 1. to .0.5, 2., turns back")
+    refused(drawn(tmp_path, [(-1.0, 0.0, 0.0), (-1.0, -1.0, 0.0), (1.0, -1.0, 0.0)]), "segment 1 .*, is upright: give it a small run")
+    refused(drawn(tmp_path, *2 * [[(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]], layer="0"), "2 polylines: they share the layer '0': move")
     refused(drawn(tmp_path, [(0.0, 0.0, 1.5), (1.0, 0.0, 0.0)]), "segment 1 of the polyline, .* turns back")
     refused(drawn(tmp_path, [(0.0, 0.0, 0.0)]), "has no segments")
-    refused(drawn(tmp_path), "0 polylines: join lines and arcs to a polyline first")
+    refused(drawn(tmp_path), "0 polylines: join lines and arcs to a polyline first, .* there are {}")
     text = tmp_path / "text.dxf"
     text.write_text("x;z\n0;1\n")
     refused(text, "no DXF file")
     space = ezdxf.new()
+    space.modelspace().add_blockref("nut", (0, 0))
+    space.modelspace().add_spline([(0, 0), (1, 0), (2, 1)])
+    space.saveas(tmp_path / "space.dxf")
+    refused(tmp_path / "space.dxf", "0 polylines: .*, explode blocks, turn splines into arcs: there are {'INSERT': 1, 'SPLINE': 1}")
     space.modelspace().add_polyline3d([(0, 0, 0), (1, 0, 1)])
     space.saveas(tmp_path / "space.dxf")
     refused(tmp_path / "space.dxf", "not in a plane")

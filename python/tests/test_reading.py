@@ -59,6 +59,8 @@ TEXTS = {
     "units as last words": "Lateral mm,Raw Micrometer,\n0.0,1.5,\n0.1,-2.5,\n0.2,0.5,\n",
     "units with underscores": "X_(millimetres),Z_(microns)\n0.0,1.5\n0.1,-2.5\n0.2,0.5\n",
     "units between blanks": "x\tz\nmm µm\n0.0\t1.5\n0.1\t-2.5\n0.2\t0.5\n",
+    "two numbers above": "1601\t.005\nX [mm]\tZ [um]\n0.0\t1.5\n0.1\t-2.5\n0.2\t0.5\n",
+    "remarks above": "x [mm] z [um]\n1601 points\nR = 300 mm\n26.11.2026 14:30\n0.0 1.5\n0.1 -2.5\n0.2 0.5\n",
     "a title with a unit": "Roller, radius 10 mm\nx in mm, z in um\n0.0,1.5\n0.1,-2.5\n0.2,0.5\n",
 }
 
@@ -112,6 +114,18 @@ def test_marks_of_points_that_were_not_measured(mark: str, tmp_path: Path) -> No
     found = lc.read_profile(file, skip_missing=True)
     assert found.missing == 3 and found.points[:, 0].round(9).tolist() == [0.1, 0.2, 0.3, 0.5, 0.6, 0.7, 0.8]
     with pytest.raises(lc.errors.MeasuredFileError, match="not measured: skip_missing=True"):
+        lc.read_profile(file)
+
+
+@pytest.mark.parametrize("columns", [(2, 3), ("x_mm", "z_um")])
+@pytest.mark.parametrize("flags", [["OK"] * 4, ["OK", "OK", "bad", "OK"], ["OK", "bad", "", "1"]])
+def test_words_in_other_columns(flags: list[str], columns: Any, tmp_path: Path) -> None:
+    text = "i,x_mm,z_um,flag\n" + "".join(f"{i},{0.1 * i:.1f},{i * i},{flag}\n" for i, flag in enumerate(flags))
+    file = written(tmp_path, "flags.csv", text)
+    with pytest.warns(UserWarning, match=r"flags.csv states no units: .* file_units=\('mm', 'um'\)"):
+        found = lc.read_profile(file, columns=columns)
+    assert found.points.round(9).tolist() == [[0, 0], [0.1, 1], [0.2, 4], [0.3, 9]] and found.unit == ""
+    with pytest.raises(lc.errors.MeasuredFileError, match="4 columns: .* such as columns="):
         lc.read_profile(file)
 
 
@@ -479,6 +493,12 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("word.csv", b"0;1\n1;two\n", {}, {"line": 2}, "'two' are no two numbers"),
     ("thousands.csv", b"0;1\n1;1.234,5\n", {}, {"line": 2}, "are no two numbers"),
     ("mixed.csv", b"0.5;1\n1,5;2\n", {}, {"line": 2}, "decimal point, and others with a comma"),
+    *(
+        (f"stray{i}.csv", f"n;m\n{x};-3.5\n-3;1\n-2;1\n".encode(), {}, {"line": 2}, "and '-3.5' look like data")
+        for i, x in enumerate(["-4,000.000", "-4 000.000", "-4'000.000", "-4.000,000", "−4.0*", "-4.0 um"])
+    ),
+    ("flag.csv", b"-4\t-3.5*\n-3\t1\n-2\t1\n", {}, {"line": 1}, "and '-3.5[*]' look like data"),
+    ("late.csv", b"0;1;OK\n1;2;OK\n1,000.0;3;OK\nend\n", {"columns": (1, 2)}, {"line": 3}, "'3' look like data"),
     ("score.csv", b"0;1\n1;1_000\n", {}, {"line": 2}, "are no two numbers"),
     ("infinite.csv", b"0;1\n1;inf\n2;3\n", {}, {"line": 2}, "infinite"),
     # As C prints them on Windows; a remark does not begin within a number.

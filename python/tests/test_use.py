@@ -586,6 +586,13 @@ def test_titles_show_load_and_peak_with_units() -> None:
     first, second = solution.plot(units=("mm", "MPa", "N/mm")).axes[0].get_title().split("\n")
     assert first.startswith("contact [") and first.endswith(" mm")
     assert second.startswith("load 0.01 N/mm, largest pressure ") and " MPa at x = " in second and second.endswith(" mm")
+    slip = lc.Contact(FLAT, BODY, kappa=1.0).partial_slip(friction=0.4, force=0.003, load=0.01)
+    assert "load 0.01 N/mm, force 0.003 N/mm\nlargest" in slip.plot(units=("mm", "MPa", "N/mm")).axes[0].get_title()
+    waves = lc.Curve((-1.0, 1.0), lambda k: (k, -0.01 * np.cos(9 * np.pi * k), 1.0, 0.09 * np.pi * np.sin(9 * np.pi * k)))
+    figure = lc.solve(FLAT, waves, kappa=1.0, load=0.001).plot(units=("mm", "MPa", "N/mm"))
+    assert "9 contacts from -0.89" in figure.axes[0].get_title()
+    figure.draw_without_rendering()
+    assert 0.0 < figure.axes[0].title.get_window_extent().x0
     corners = lc.Edge.fixed(-1.0), lc.Edge.fixed(1.0)
     punch = lc.solve(FLAT, FLAT, kappa=1.0, edges=corners, load=0.3)
     assert "pressure infinite at x = " in punch.plot().axes[0].get_title()

@@ -19,6 +19,12 @@ use super::{
 use crate::Real;
 use std::sync::Arc;
 
+const SLOPE: &str = "the slope after the corner";
+/// Condition on slopes.
+const SLOPED: &str = "finite; an upright wall has a run, such as 1e-6 of its depth";
+/// Condition on lengths along x.
+const LONG: &str = "positive and finite; an upright wall has a run, such as 1e-6 of its depth";
+
 /// Body of an outline: a piece for each line and arc.
 type Outlined<T> = Piecewise<T, Arc<dyn ParametricProfile<T>>>;
 
@@ -176,14 +182,14 @@ impl<T: Real> Outline<T> {
             if let Some(finish) = drawn.corner.1 {
                 let before = found.last_mut();
                 let between = before.and_then(|before| before.finish(&mut segment, finish));
-                found.push(between.ok_or_else(|| fault(finish.fault()))?);
+                let must = "positive, at a corner, and leave a part of the segments on either side";
+                found.push(between.ok_or_else(|| fault(finish.fault(must)))?);
             }
             found.push(segment);
         }
-        let corner = self.next.0.map(|slope| ("the slope after the corner", slope));
-        if let Some((name, value)) = self.next.1.map(Finish::named).or(corner) {
-            let source =
-                ProfileError::Parameter { name, value, must: "in front of a line or an arc" };
+        let (name, must) = (SLOPE, "in front of a line or an arc");
+        let corner = self.next.0.map(|value| ProfileError::Parameter { name, value, must });
+        if let Some(source) = self.next.1.map(|finish| finish.fault(must)).or(corner) {
             return Err(PiecewiseError::InSegment { segment: self.drawn.len() + 1, source });
         }
         let Some(left) = &self.left else { return Ok(found) };
@@ -194,18 +200,12 @@ impl<T: Real> Outline<T> {
 }
 
 impl<T: Real> Finish<T> {
-    /// Returns its name and its size.
-    fn named(self) -> (&'static str, T) {
-        match self {
+    /// Returns the error of a corner that cannot be finished so.
+    fn fault(self, must: &'static str) -> ProfileError<T> {
+        let (name, value) = match self {
             Self::Round(radius) => ("the radius of the fillet in front of it", radius),
             Self::Cut([one, other]) => ("a length of the chamfer in front of it", one.max(other)),
-        }
-    }
-
-    /// Returns the error of a corner that cannot be finished so.
-    fn fault(self) -> ProfileError<T> {
-        let (name, value) = self.named();
-        let must = "positive, at a corner, and leave a part of the segments on either side";
+        };
         ProfileError::Parameter { name, value, must }
     }
 }
@@ -215,8 +215,8 @@ impl<T: Real> Segment<T> {
     fn behind((at, angle): ([T; 2], T), drawn: &Drawn<T>) -> Result<Self, ProfileError<T>> {
         let (zero, length) = (T::zero(), drawn.length);
         let angle = drawn.corner.0.map_or(angle, T::atan);
-        finite("the slope after the corner", drawn.corner.0.unwrap_or(zero), true, "finite")?;
-        finite("the length along x", length, length > zero, "positive and finite")?;
+        finite(SLOPE, drawn.corner.0.unwrap_or(zero), true, SLOPED)?;
+        finite("the length along x", length, length > zero, LONG)?;
         let Some(radius) = drawn.radius else {
             return Ok(Self { radius: None, slope: angle.tan(), ends: [zero, length], at });
         };

@@ -26,10 +26,6 @@ impl SceneError {
         let field = if self.field.is_empty() { "" } else { &format!("{}: ", self.field) };
         line + field
     }
-
-    fn writing(error: impl ToString) -> Self {
-        Self { line: None, field: String::new(), reason: error.to_string() }
-    }
 }
 
 /// Forms of a control.
@@ -66,7 +62,7 @@ impl<T: Real + DeserializeOwned> Scene<T> {
     ///
     /// # Errors
     /// [`SceneError`], with line and field: for text that is not TOML, unknown or missing fields,
-    /// and bodies that cannot be built.
+    /// and bodies and stiffnesses that cannot be.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
         let line = |place: usize| Some(1 + text[..place].matches('\n').count());
         let fault = |field, error: &toml::de::Error| {
@@ -107,7 +103,7 @@ impl<T: Real + Serialize> Scene<T> {
     /// # Errors
     /// [`SceneError`] without a line.
     pub fn to_toml(&self) -> Result<String, SceneError> {
-        toml::to_string(self).map_err(SceneError::writing)
+        toml::to_string(self).map_err(|error| fault(None, String::new(), &error.to_string()))
     }
 
     /// Writes the scene as JSON.
@@ -115,6 +111,7 @@ impl<T: Real + Serialize> Scene<T> {
     /// # Errors
     /// As [`to_toml`](Self::to_toml).
     pub fn to_json(&self) -> Result<String, SceneError> {
-        serde_json::to_string_pretty(self).map_err(SceneError::writing)
+        serde_json::to_string_pretty(self)
+            .map_err(|error| fault(None, String::new(), &error.to_string()))
     }
 }

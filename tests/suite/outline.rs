@@ -256,6 +256,10 @@ fn what_cannot_be_drawn_is_named_by_its_segment() {
         error.to_string(),
         "segment 2 of the outline: the length along x is 2.5: it must be so short that the arc does not turn back"
     );
+    for upright in [start().line(0.0), start().corner(f64::NEG_INFINITY).line(1.0)] {
+        let said = upright.build().err().unwrap().to_string();
+        assert!(said.ends_with("an upright wall has a run, such as 1e-6 of its depth"), "{said}");
+    }
     let empty = start().build().err();
     assert!(matches!(empty, Some(PiecewiseError::NoPieces)), "{empty:?}");
     assert!(Outline::from([0.0f32, 0.0]).line(1.0).arc(-9.0, 2.0).build().is_ok());

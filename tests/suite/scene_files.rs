@@ -282,6 +282,13 @@ fn a_bad_file_is_refused_with_line_and_field() {
         ("\n\n", "\ncontrols = [\n{ load = nan }]\n", 3, "load", "the number is not finite"),
         ("\n\n", "\nresolution = -inf\n", 2, "resolution", "the number is not finite"),
         ("\n\n", "\nstiffness = { kappa = 1, contact_modulus = 1 }\n", 2, "stiffness", "1 element"),
+        (
+            "\n\n",
+            "\nstiffness = { kappa = 0.0 }\n",
+            2,
+            "stiffness",
+            "κ = 0: the scale must be positive",
+        ),
         ("\n\n", "\nedges = { left = \"free\" }\n", 2, "edges", "missing field `right`"),
         (
             "\n\n",
@@ -299,7 +306,8 @@ fn a_bad_file_is_refused_with_line_and_field() {
 fn a_bad_layer_is_refused_with_line_and_field() {
     let good = "[lower]\nshape = \"flat\"\n[upper]\nshape = \"flat\"\n\
                 [stiffness.materials]\nlower = \"rigid\"\n\
-                [stiffness.materials.upper.layer]\nmaterial = \"rigid\"\nthickness = 1.0\n\
+                [stiffness.materials.upper.layer]\n\
+                material = { elastic = { youngs_modulus = 1.0, poisson_ratio = 0.3 } }\nthickness = 1.0\n\
                 base = { half_plane = { elastic = { youngs_modulus = 1.0, poisson_ratio = 0.3 } } }\n";
     let layer = "stiffness.materials.upper.layer";
     let rows = [
@@ -316,6 +324,13 @@ fn a_bad_layer_is_refused_with_line_and_field() {
             6,
             "stiffness.materials.lower.layer",
             "missing field `material`",
+        ),
+        (
+            "poisson_ratio = 0.3",
+            "poisson_ratio = 0.6",
+            5,
+            "stiffness",
+            "upper body: Poisson's ratio is 0.6",
         ),
         ("upper.layer", "upper.lair", 7, "stiffness.materials.upper", "unknown variant `lair`"),
         (
@@ -335,8 +350,8 @@ fn a_bad_layer_is_refused_with_line_and_field() {
         ("thickness = 1.0\n", "", 7, layer, "missing field `thickness`"),
         ("half_plane", "half", 10, &format!("{layer}.base"), "unknown variant `half`"),
         (
-            "youngs_modulus",
-            "modulus",
+            "{ half_plane = { elastic = { youngs_modulus",
+            "{ half_plane = { elastic = { modulus",
             10,
             &format!("{layer}.base.half_plane.elastic"),
             "unexpected keys in table: modulus",
@@ -344,7 +359,8 @@ fn a_bad_layer_is_refused_with_line_and_field() {
     ];
     assert_refused(Scene::from_toml, good, &rows);
     let json = "{\"lower\": {\"shape\": \"flat\"},\n\"upper\": {\"shape\": \"flat\"},\n\
-                \"stiffness\": {\"materials\": {\"lower\": \"rigid\", \"upper\": {\"layer\":\n\
+                \"stiffness\": {\"materials\": {\"lower\": {\"elastic\":\
+                {\"youngs_modulus\": 1, \"poisson_ratio\": 0}}, \"upper\": {\"layer\":\n\
                 {\"material\": \"rigid\", \"thickness\": 1, \"base\": \"bonded\"}}}}}";
     let rows = [
         ("bonded", "glued", 4, &*format!("{layer}.base"), "unknown variant `glued`"),

@@ -160,9 +160,7 @@ def _both(materials: Sequence[Any]) -> Sequence[Any]:
     return materials
 
 
-def contact_modulus(
-    lower: Sequence[float], upper: Sequence[float], plane: Plane = "strain"
-) -> float:
+def contact_modulus(lower: Sequence[float], upper: Sequence[float], plane: Plane = "strain") -> float:
     """Returns the contact modulus: `1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂` in plane strain.
 
     Parameters
@@ -617,6 +615,9 @@ class Contact(Unchanging):
             raise TypeError("contact_modulus, materials and kappa say the same: give one of them")
         if edges is not None and edge_pressure is not None:
             raise TypeError("edges and edge_pressure exclude each other: give one of them")
+        if edges is not None and not (isinstance(edges, Sequence) and [*map(type, edges)] == [Edge, Edge]):
+            kinds = "Edge.free(), .fixed(x), .free_until(x) or .adhesive(work)"
+            raise TypeError(f"edges are {edges!r}: give the left and the right one, each {kinds}")
         if tolerance is not None:
             if quadrature is not None:
                 raise TypeError("the tolerance is that of Panels: give it there, or no quadrature")
@@ -640,23 +641,15 @@ class Contact(Unchanging):
             "certified": certified,
             "single_interval": single_interval,
         }
-        self._scene = _native.Scene(
-            lower=lower._profile,
-            upper=upper._profile,
-            kappa=kappa,
-            contact_modulus=contact_modulus,
-            materials=None if materials is None else (*map(_foundation, _both(materials)), plane),
-            edges=edges,
-            edge_pressure=edge_pressure,
-            start=self._settings["start"],
-            inversion=_search(inversion, "inversion"),
-            limit_search=_search(limit_search, "limit_search"),
-            quadrature=_quadrature(quadrature),
-            resolution=self._settings["resolution"],
-            period=self._settings["period"],
-            certified=certified,
-            single_interval=single_interval,
-        )
+        given = self._settings | {
+            "materials": None if materials is None else (*map(_foundation, _both(materials)), plane),
+            "inversion": _search(inversion, "inversion"),
+            "limit_search": _search(limit_search, "limit_search"),
+            "quadrature": _quadrature(quadrature),
+        }
+        # It goes with the materials.
+        del given["plane"]
+        self._scene = _native.Scene(lower=lower._profile, upper=upper._profile, **given)
 
     @property
     def has_modulus(self) -> bool:

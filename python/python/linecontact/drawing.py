@@ -85,9 +85,7 @@ def heights(contact: Contact, body: Body, x: FloatArray) -> FloatArray:
     return body.heights(x)
 
 
-def before_loading(
-    contact: Contact, x: FloatArray, tilt: float = 0.0
-) -> tuple[FloatArray, FloatArray]:
+def before_loading(contact: Contact, x: FloatArray, tilt: float = 0.0) -> tuple[FloatArray, FloatArray]:
     """Returns the heights of both bodies, brought together until they just touch."""
     lower, upper = heights(contact, contact.lower, x), heights(contact, contact.upper, x) + tilt * x
     shown = np.isfinite(lower) & np.isfinite(upper)
@@ -163,7 +161,9 @@ def plot_roller(state: RollerState, units: Sequence[str]) -> Figure:
         axes.stairs(values, ends, color="#08519c")
         axes.set_ylim(bottom=0.0)
         axes.set_ylabel(label)
-    loads.set_title(f"load {state.load:.6g}, misalignment {state.misalignment:.6g}")
+    force, _, length = units[2].rpartition("/")
+    force = force if length == units[0] else f"{units[2]} {units[0]}"
+    loads.set_title(f"load {state.load:.6g} {force}".rstrip() + f", misalignment {state.misalignment:.6g} rad")
     pressures.set_xlabel(along)
     return figure
 
@@ -177,14 +177,18 @@ def _draw_bodies(axes: Axes, x: FloatArray, heights: tuple[FloatArray, FloatArra
     axes.legend(loc="best")
 
 
-def _title(solution: Solution, units: Sequence[str], more: str) -> str:
+def _title(solution: Solution, units: Sequence[str], slip: PartialSlip | None) -> str:
     """Returns contacts, load and largest pressure with their units."""
     length, pressure, load = (f" {unit}" if unit else "" for unit in (*units, "")[:3])
     contacts, loaded = str(solution).splitlines()[:2]
+    if (count := len(solution.intervals)) > 2:
+        # All of them would be wider than the picture.
+        contacts = f"{count} contacts from {solution.hull.left:.6g} to {solution.hull.right:.6g}"
+    then = ", " if slip is None else f", force {slip.force:.6g}{load}\n"
     loaded, _, peak = loaded.partition(", ")
     value, at, x = peak.partition(" at x = ")
     peak = f"{value}{pressure}{at}{x}{length}" if "infinite" not in value else f"{peak}{length}"
-    return f"{contacts}{length}\n{loaded}{load}{more}, {peak}"
+    return f"{contacts}{length}\n{loaded}{load}{then}{peak}"
 
 
 def _draw_points(axes: Axes, contact: Contact, up: float, tilt: float) -> None:
@@ -253,7 +257,8 @@ def _scale(axes: Axes, solution: Solution, lowest: float, slip: PartialSlip | No
     if places := _infinite_at(solution):
         top = 1.05 * highest(solution) * max(1.0, slip.friction if slip else 1.0)
         axes.set_ylim(max(lowest, -top), top)
-        words = f"infinite at x = {', '.join(f'{x:.6g}' for x in places)} {length}".rstrip()
+        where = f"x = {', '.join(f'{x:.6g}' for x in places)} {length}" if len(places) < 5 else f"{len(places)} places"
+        words = f"infinite at {where}".rstrip()
         # Below the axes, where no line goes through it.
         axes.text(1.0, -0.05, words, transform=axes.transAxes, ha="right", va="top", fontsize="small")
 
@@ -293,7 +298,7 @@ def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = No
     lower, upper = before_loading(contact, x, solution.tilt)
     _draw_bodies(bodies, x, (lower, upper), lengths)
     _draw_points(bodies, contact, float(np.nanmax(upper - heights(contact, contact.upper, x))), solution.tilt)
-    bodies.set_title(_title(solution, units, "" if slip is None else f", force {slip.force:.6g}"))
+    bodies.set_title(_title(solution, units, slip), fontsize="medium")
 
     places, values = solution.sample(257)
     for number, interval in enumerate(solution.intervals):

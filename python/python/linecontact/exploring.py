@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._numbers import FloatArray, Numbers, Range, as_numbers, one_of
+from ._numbers import FloatArray, Numbers, Range, as_numbers, as_side
 from .below import bodies, materials
 from .bodies import Body
 from .contact import Contact, Material, contact_modulus
@@ -186,9 +186,7 @@ def _window(solution: Solution) -> Range:
 
 
 def _frame(
-    solved: Solution | PartialSlip | LineContactError,
-    window: Range,
-    below: tuple[Side | None, float],
+    solved: Solution | PartialSlip | LineContactError, window: Range, below: tuple[Side | None, float]
 ) -> dict[str, Any] | LineContactError:
     """Returns the data that the page shows for one load."""
     if isinstance(solved, LineContactError):
@@ -315,10 +313,7 @@ def _beside(solution: Solution, window: Range) -> FloatArray:
 
     Places beyond a corner that is pressed, where one of the bodies ends, are left out.
     """
-    pressed = [
-        strength > 0.0 and is_infinite(solution, strength)
-        for strength in solution.edge_singularities
-    ]
+    pressed = [strength > 0.0 and is_infinite(solution, strength) for strength in solution.edge_singularities]
     limits = np.ravel(np.add.outer(_shifts(solution, window), np.ravel(solution.intervals)))
     bounds = np.reshape([window[0], *np.clip(limits, *window), window[1]], (-1, 2))
     bounds = bounds[int(pressed[0]) : len(bounds) - int(pressed[1])]
@@ -344,8 +339,7 @@ def _share_of_lower(contact: Contact) -> float:
 
 def _below(contact: Contact, body: Side | None) -> tuple[Side | None, float]:
     """Returns the body whose shear is shown, and its largest depth."""
-    if body is not None:
-        one_of(body, "body", ("lower", "upper"))
+    as_side(body)
     found = dict(bodies(contact))
     if None in found:
         return None, found[None]

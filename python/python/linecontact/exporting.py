@@ -87,12 +87,6 @@ def write_vtk(path: Path, rows: Sequence[Row]) -> None:
                 np.savetxt(file, values.ravel(), fmt="%.17g")
 
 
-def _pressures(solution: Solution) -> dict[str, FloatArray]:
-    """Returns pressures from the first limit to the last, at places that are denser at both."""
-    x = solution.centre - solution.half_width * np.cos(np.pi * (np.arange(_PLACES) + 0.5) / _PLACES)
-    return {"x": x, "pressure": solution.pressure(x)}
-
-
 def _places(rows: Sequence[Row]) -> dict[str, list[str]]:
     """Returns the materials of the largest stresses by row, if a body has a layer."""
     names = dict.fromkeys(name for row in rows for name in row.places)
@@ -100,8 +94,9 @@ def _places(rows: Sequence[Row]) -> dict[str, list[str]]:
 
 
 def _fields(solution: Solution) -> dict[str, FloatArray]:
-    """Returns the pressures and all stresses, those of one body with its name."""
-    found = _pressures(solution)
+    """Returns pressures, denser at both limits, and stresses, those of one body with its name."""
+    x = solution.centre - solution.half_width * np.cos(np.pi * (np.arange(_PLACES) + 0.5) / _PLACES)
+    found = {"x": x, "pressure": solution.pressure(x)}
     for body, deepest in bodies(solution.contact):
         before = f"{body}_" if body else ""
         for name, values in _field(solution, body, deepest).items():

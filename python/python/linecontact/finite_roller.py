@@ -140,9 +140,7 @@ class FiniteRoller:
     0.001
     """
 
-    def __init__(
-        self, table: SpringTable, length: float, slices: int = 41, relief: Body | None = None
-    ) -> None:
+    def __init__(self, table: SpringTable, length: float, slices: int = 41, relief: Body | None = None) -> None:
         if not isinstance(table, SpringTable):
             raise TypeError(f"{table!r} is no SpringTable: make one of the contact of the roller with its raceway")
         relief = Flat() if relief is None else relief
@@ -188,8 +186,4 @@ class FiniteRoller:
 
 def _state(row: _native._RollerRow) -> RollerState:
     (approach, misalignment, load, moment), stiffness, error, slices = row
-    z, approaches, loads, half_contacts, pressures = slices
-    rows = np.array(stiffness)
-    return RollerState(
-        approach, misalignment, load, moment, rows, error, z, approaches, loads, half_contacts, pressures
-    )
+    return RollerState(approach, misalignment, load, moment, np.array(stiffness), error, *slices)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import dataclass, replace
+from itertools import dropwhile
 from os import PathLike, fspath
 from typing import Any, Literal, NamedTuple
 
@@ -35,6 +37,8 @@ class Outline:
         Steps, as the methods add them.
     left_half : Outline, optional
         Right half whose mirror image stands to the left, as by `left`.
+    unit : str, optional
+        Unit of the drawing, such as "mm" or "in", if it states one; it converts nothing.
 
     Examples
     --------
@@ -54,6 +58,7 @@ class Outline:
     start: tuple[float, float] = (0.0, 0.0)
     steps: tuple[Step, ...] = ()
     left_half: Outline | None = None
+    unit: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "start", as_range(self.start, "start"))
@@ -120,7 +125,7 @@ class Outline:
 def read_outline(
     path: str | PathLike[str], *, layer: str | None = None, facing: Literal["up", "down"] | None = None
 ) -> Outline:
-    """Reads a polyline of lines and arcs from a DXF file, in the units of the file.
+    """Reads a polyline of lines and arcs from a DXF file, in the `unit` of the file.
 
     Needs ezdxf: ``pip install './python[dxf]'``. The arcs are those of the polyline, by its
     bulges: exact. Segments that meet at less than 1e-6 radians are tangent.
@@ -162,7 +167,7 @@ def read_outline(
     name = fspath(path)
     if facing is not None:
         one_of(facing, "facing", ("up", "down"))
-    edges, is_closed = _polyline(name, layer)
+    edges, is_closed, unit = _polyline(name, layer)
     if is_closed and facing is None:
         raise MeasuredFileError(name, "the polyline is closed: facing='up' takes its upper part, facing='down' the lower")
     # Drawn to the right: the lower part of a closed line has the body on its left.
@@ -173,14 +178,16 @@ def read_outline(
         first = min(range(len(edges)), key=lambda at: edges[at].start[0])
         edges = edges[first:] + edges[:first]
         last = max(range(len(edges)), key=lambda at: edges[at].end[0])
-        edges = [edge for edge in edges[: last + 1] if edge.start[0] != edge.end[0]]
-    outline, angle = Outline(edges[0].start), 0.0
+        edges = list(dropwhile(lambda edge: edge.start[0] == edge.end[0], edges[: last + 1]))
+    outline, angle = Outline(edges[0].start, unit=unit), 0.0
     for number, (start, end, bulge) in enumerate(edges, 1):
         run, chord = end[0] - start[0], math.atan2(end[1] - start[1], end[0] - start[0])
         begins, ends = chord - 2.0 * math.atan(bulge), chord + 2.0 * math.atan(bulge)
         if run <= 0.0 or max(abs(begins), abs(ends)) > 0.5 * math.pi + _TANGENT:
             where = f"from ({start[0]:g}, {start[1]:g}) to ({end[0]:g}, {end[1]:g})"
-            raise MeasuredFileError(name, f"segment {number} of the polyline, {where}, turns back in x: end it there")
+            upright = "is upright: give it a small run, such as 1e-6 of its height"
+            fault = upright if abs(run) <= _TANGENT * math.dist(start, end) else "turns back in x: end it there"
+            raise MeasuredFileError(name, f"segment {number} of the polyline, {where}, {fault}")
         if abs(begins - angle) > _TANGENT:
             outline = outline.corner(math.tan(max(-0.5 * math.pi, min(0.5 * math.pi, begins))))
         outline = outline.arc(_radius(start, end, bulge), run) if bulge else outline.line(run)
@@ -208,24 +215,30 @@ def _area(edge: _Edge) -> float:
     return x * to_y - to_x * y + cap
 
 
-def _polyline(name: str, layer: str | None) -> tuple[list[_Edge], bool]:
-    """Returns the edges of the polyline of a file, and whether it is closed."""
+def _polyline(name: str, layer: str | None) -> tuple[list[_Edge], bool, str]:
+    """Returns the edges of the polyline of a file, whether it is closed, and the unit."""
     try:
         import ezdxf
     except ImportError:
         raise ImportError("DXF files are read by ezdxf: pip install './python[dxf]'") from None
     try:
-        space = ezdxf.readfile(name).modelspace()
+        drawing = ezdxf.readfile(name)
     except (ezdxf.DXFError, OSError) as error:
         # An error without a number is no fault of the system: ezdxf refuses what is no DXF file.
         if getattr(error, "errno", None) is not None:
             raise
         raise MeasuredFileError(name, f"no DXF file: {error}") from None
+    space = drawing.modelspace()
     lines = [one for one in space.query("LWPOLYLINE POLYLINE") if layer in (None, one.dxf.layer)]
     if len(lines) != 1:
         on = "" if layer is None else f" on layer {layer!r}"
         there = sorted({one.dxf.layer for one in space.query("LWPOLYLINE POLYLINE")})
-        remedy = f"give the layer of one: there are {there}" if there else "join lines and arcs to a polyline first"
+        remedy = f"give the layer of one: there are {there}"
+        if len({one.dxf.layer for one in lines}) == 1:
+            remedy = f"they share the layer {lines[0].dxf.layer!r}: move the one that is meant to a layer of its own"
+        elif not there:
+            found = dict(Counter(one.dxftype() for one in space))
+            remedy = f"join lines and arcs to a polyline first, explode blocks, turn splines into arcs: there are {found}"
         raise MeasuredFileError(name, f"{len(lines)} polylines{on}: {remedy}")
     [line] = lines
     if line.dxftype() == "LWPOLYLINE":
@@ -243,4 +256,4 @@ def _polyline(name: str, layer: str | None) -> tuple[list[_Edge], bool]:
     edges = [edge for edge in (edges if is_closed else edges[:-1]) if edge.start != edge.end]
     if not edges:
         raise MeasuredFileError(name, "the polyline has no segments")
-    return edges, is_closed
+    return edges, is_closed, ezdxf.units.decode(drawing.units if drawing.units in range(25) else 0) or ""

@@ -8,6 +8,7 @@ nine other packages, is under the GPL and reads no profiles from X3P; sdfio and 
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Sequence
 from os import PathLike, fspath
 from pathlib import Path
@@ -39,6 +40,8 @@ _REMARK = re.compile(r"(?:^|(?<=[\s;,]))[#%!].*")
 _NO_NUMBER = re.compile(
     r"[+-]?1[.,]#(?:[QS]?NAN|IND|INF)0*|\*+|-+|\?+|n\.?/?a\.?|null|none|no ?data|missing|invalid|bad", re.IGNORECASE
 )
+# What begins like a number, whatever follows, but no date and no time.
+_LIKE_A_NUMBER = re.compile(r"(?!\d{1,4}([-./])\d{1,2}\1\d{2,4}|\d{1,2}:\d\d)[-+−]?[.,]?\d")
 # Exponents of Fortran, as in `1.0D-02`.
 _FORTRAN = re.compile(r"(?<=[\d.])[dD](?=[+-]?\d)")
 # Names of x in headers, as `_bare` makes them.
@@ -65,7 +68,7 @@ class MeasuredProfile(NamedTuple):
     points : ndarray, shape (n, 2)
         Rows of x and z, lengths in the unit, by rising x.
     unit : str
-        Unit of x and z; "" if a text states none.
+        Unit of x and z; "" if a text states none, which you are warned of.
     missing : int
         Number of points of the file that are left out, since they were not measured.
 
@@ -140,8 +143,9 @@ def read_profile(
     first line of numbers are the header, and may state units as in ``x [mm]; z [um]``; lines of
     words after the last are left out, and so are a few numbers behind an empty line with which no
     column goes on, such as their count, and what follows ``#``, ``%`` or ``!``. Numbers may have
-    decimal commas. A profile that was measured from right to left is reversed. Heights are as
-    in the file: upwards, out of the material. For an upper body the spline is to be `flipped`.
+    decimal commas, but no separators of thousands. A profile that was measured from right to left
+    is reversed. Heights are as in the file: upwards, out of the material. For an upper body the
+    spline is to be `flipped`.
 
     Parameters
     ----------
@@ -209,7 +213,10 @@ def read_profile(
     if unit is not None and not units[0]:
         raise MeasuredFileError(name, "states no units: give file_units, such as ('mm', 'um')")
     wanted = units[0] if unit is None else unit
-    if wanted:
+    if not wanted:
+        says = "states no units: heights are taken to be in that of x. file_units=('mm', 'um') states those of x and z"
+        warnings.warn(f"{name} {says}", stacklevel=2)
+    else:
         points = points * [_METRES[given] / _METRES[wanted] for given in units]
     places = _measured(name, points, lines, skip_missing)
     missing = len(points) - len(places)
@@ -276,18 +283,24 @@ def _text(
     lines = re.split(r"\r\n|\r|\n", _decoded(name, data))
     first, delimiter, width = _first_row(name, lines)
     heads = _heads(lines[:first], delimiter, width)
-    table, places = _table(name, lines, first, delimiter, width)
+    x, z = _in_order(heads) if columns is None else (_numbered(name, heads, column) for column in columns)
+    if min(x, z) < 1 or max(x, z) > width or x == z:
+        raise MeasuredFileError(name, f"columns are {columns}: give two of 1 to {width}", first + 1)
+    above = [at for at, line in enumerate(lines[:first]) if any(_cells(line, delimiter))]
+    while above and (stray := _stray(name, cells := _cells(lines[above[-1]], delimiter), above[-1] + 1, x, z)):
+        # Words of other columns may differ from row to row.
+        if width == 2 or len(cells) < width or None in (_number(cells[x - 1]), _number(cells[z - 1])):
+            raise stray
+        first = above.pop()
+    table, places = _table(name, lines, first, delimiter, width, x, z)
     numbers = [[_number(cell) for cell in cells[:width]] for cells in table]
     points = np.array(numbers, dtype=np.float64)
     steps = np.diff(points, axis=0)
     can_be_x = (1 + np.flatnonzero((steps > 0).all(axis=0) | (steps < 0).all(axis=0))).tolist() if len(steps) else []
     if columns is None and width > 2:
-        such = _columns_to_try(heads, width, can_be_x)
+        such = _columns_to_try(heads, width, can_be_x, _filled(table[0]))
         reason = f"{width} columns: give those of x and z, by number or name, {such}"
         raise MeasuredFileError(name, reason + _commas(table, delimiter), first + 1)
-    x, z = _in_order(heads) if columns is None else (_numbered(name, heads, column) for column in columns)
-    if min(x, z) < 1 or max(x, z) > width or x == z:
-        raise MeasuredFileError(name, f"columns are {columns}: give two of 1 to {width}", first + 1)
     marks = set[str]()
     for cells, row, line in zip(table, numbers, places, strict=True):
         chosen = [cells[x - 1], cells[z - 1]]
@@ -302,13 +315,15 @@ def _text(
 
 
 def _table(
-    name: str, lines: Sequence[str], first: int, delimiter: str | None, width: int
+    name: str, lines: Sequence[str], first: int, delimiter: str | None, width: int, x: int, z: int
 ) -> tuple[list[list[str]], list[int]]:
     """Returns the cells of the rows of numbers, and the line of each; words may stand below and behind."""
     rows = [(_cells(content, delimiter), line) for line, content in enumerate(lines[first:], first + 1)]
     rows = [(cells, line) for cells, line in rows if any(cells)]
-    while _number(rows[-1][0][0]) is None:
-        rows.pop()
+    [lead, *_] = _filled(rows[0][0])
+    while len(rows[-1][0]) < lead or _number(rows[-1][0][lead - 1]) is None:
+        if stray := _stray(name, *rows.pop(), x, z):
+            raise stray
     empty = [line for line, content in enumerate(lines[first:], first + 1) if not content.strip()]
     body = [cells for cells, line in rows if not empty or line < empty[0]]
     if _is_footer(body, [cells for cells, _ in rows[len(body) :]], width):
@@ -321,6 +336,15 @@ def _table(
             reason = f"{_counted(len(cells), 'column')}: there are {width} in line {first + 1}"
             raise MeasuredFileError(name, reason + remedy, line)
     return [cells for cells, _ in rows], [line for _, line in rows]
+
+
+def _stray(name: str, cells: Sequence[str], line: int, x: int, z: int) -> MeasuredFileError | None:
+    """Returns the error of a line above or below the table that may be one of it."""
+    at, height = [cells[column - 1] if column <= len(cells) else "" for column in (x, z)]
+    if not _LIKE_A_NUMBER.match(at) or not (_LIKE_A_NUMBER.match(height) or _NO_NUMBER.fullmatch(height)):
+        return None
+    remedy = "take out separators of thousands, units and flags; put # in front of it if it is a remark"
+    return MeasuredFileError(name, f"{at!r} and {height!r} look like data, but this is no line of the table: {remedy}", line)
 
 
 def _commas(table: Sequence[list[str]], delimiter: str | None) -> str:
@@ -370,13 +394,21 @@ def _number(cell: str) -> float | None:
         return None
 
 
+def _filled(cells: Sequence[str]) -> list[int]:
+    """Returns the columns of a line that have numbers, counted from 1."""
+    return [at for at, cell in enumerate(cells, 1) if cell and _number(cell) is not None]
+
+
 def _first_row(name: str, lines: Sequence[str]) -> tuple[int, str | None, int]:
     """Returns the first line of numbers, the delimiter of its columns, and their number.
 
-    A line of numbers with words below it is part of the header, unless the table is alike.
+    A line of numbers with words below it is part of the header, unless the table is alike and none
+    of them names a column. Words may stand in a table of two numbers and more if there is no other.
     """
-    passed = list[tuple[int, str | None, int]]()
+    passed, wordy = list[tuple[int, str | None, int]](), list[tuple[int, str | None, int]]()
     for at, line in enumerate(lines):
+        if passed and any(_unit_of(cell)[0] or _ALONG.fullmatch(_bare(cell)) for cell in _cells(line, passed[-1][1])):
+            passed.clear()
         for delimiter in _DELIMITERS:
             cells = _cells(line, delimiter)
             while len(cells) > 2 and not cells[-1]:
@@ -387,8 +419,11 @@ def _first_row(name: str, lines: Sequence[str]) -> tuple[int, str | None, int]:
                 if _number(below[0]) is not None:
                     return next(one for one in passed if one[1:] == passed[-1][1:])
                 break
-    if passed:
-        return passed[0]
+            below = _cells("".join(lines[at + 1 : at + 2]), delimiter)
+            if not wordy and len(there := _filled(cells)) > 1 and {*there}.issubset(_filled(below)):
+                wordy.append((at, delimiter, len(cells)))
+    if wordy or passed:
+        return (wordy or passed)[0]
     single = (at for at, line in enumerate(lines, 1) if line.strip() and _number(line.strip()) is not None)
     raise MeasuredFileError(name, "no line has two numbers: a profile has columns of x and z", next(single, None))
 
@@ -436,7 +471,7 @@ def _in_order(heads: Sequence[_Head]) -> tuple[int, int]:
     return (2, 1) if [False, True] in of else (1, 2)
 
 
-def _columns_to_try(heads: Sequence[_Head], width: int, can_be_x: Sequence[int]) -> str:
+def _columns_to_try(heads: Sequence[_Head], width: int, can_be_x: Sequence[int], filled: Sequence[int]) -> str:
     """Tells which columns may be meant: those with units, or the first that can be x."""
     for head in heads:
         with_units = [cell for cell in head.ways[0] if _unit_of(cell)[0]]
@@ -445,7 +480,7 @@ def _columns_to_try(heads: Sequence[_Head], width: int, can_be_x: Sequence[int])
     if not can_be_x:
         reason = "none rises or falls throughout: x turns back (give facing, too), or this is a matrix of heights"
         return f"such as columns=(1, 2); {reason}, in which no column is x"
-    return f"such as columns={(can_be_x[0], width if can_be_x[0] < width else 1)}"
+    return f"such as columns={(can_be_x[0], filled[-1 if can_be_x[0] < filled[-1] else 0])}"
 
 
 def _symbol(word: str) -> str:

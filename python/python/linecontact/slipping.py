@@ -201,9 +201,7 @@ class PartialSlip:
         return plot(self.normal, units, self)
 
 
-def slipped_again(
-    contact: Contact, prescribed: Prescribed, acting: tuple[float, float, float]
-) -> PartialSlip:
+def slipped_again(contact: Contact, prescribed: Prescribed, acting: tuple[float, float, float]) -> PartialSlip:
     """Restores a pickled contact that slips in part."""
     found = contact._scene.partial_slip(prescribed, acting)
     return PartialSlip(found, contact, prescribed, acting)

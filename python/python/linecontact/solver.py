@@ -82,13 +82,7 @@ class Solver:
 
     @named
     def partial_slip(
-        self,
-        contact: Contact,
-        *,
-        friction: float,
-        force: float,
-        tension: float = 0.0,
-        **prescribed: Unpack[Prescribed],
+        self, contact: Contact, *, friction: float, force: float, tension: float = 0.0, **prescribed: Unpack[Prescribed]
     ) -> PartialSlip:
         """Finds a contact as `Contact.partial_slip` does, but starts from the last contact."""
         wanted = _wanted(prescribed)
@@ -154,11 +148,7 @@ class SpringTable:
     """
 
     def __init__(
-        self,
-        contact: Contact,
-        references: References,
-        loads: Sequence[float],
-        tolerance: float = 1e-6,
+        self, contact: Contact, references: References, loads: Sequence[float], tolerance: float = 1e-6
     ) -> None:
         self._made_of = (contact, references, as_range(loads, "loads"), as_number(tolerance, "tolerance"))
         self._table = _native.SpringTable(contact._scene, as_references(references), *self._made_of[2:])

@@ -175,15 +175,13 @@ def sweep(
     if threads is not None and threads < 1:
         raise ValueError(f"{threads} threads: give one or more")
 
-    for contact in [] if isinstance(contacts, Contact) else contacts:
+    several = [contacts] if isinstance(contacts, Contact) else contacts
+    for contact in several:
         if not isinstance(contact, Contact):
             raise TypeError(f"{contact!r} is no Contact")
-    scenes: list[_native.Scene]
-    if isinstance(contacts, Contact):
-        scenes, which = [contacts._scene], np.zeros(rows, dtype=np.uintp)
-    else:
-        scenes = [contact._scene for contact in contacts]
-        which = np.arange(rows, dtype=np.uintp)
+    scenes = [contact._scene for contact in several]
+    # One contact serves all rows.
+    which = np.arange(rows, dtype=np.uintp) % max(len(scenes), 1)
     told, close = _bar(progress, rows)
     try:
         columns, failures = _native.sweep(
