@@ -1,7 +1,7 @@
 //! Errors of a solve.
 
 use super::advice::{
-    SEVERAL, at_peak, borne, hint, how_to_peak, how_to_press, how_to_touch, place,
+    SEVERAL, at_peak, borne, hint, how_to_balance, how_to_peak, how_to_press, how_to_touch, place,
 };
 use crate::rounded::{apart, six, span};
 use crate::search::SearchError;
@@ -132,8 +132,8 @@ pub enum SolveError<T: Real> {
     /// No position of a contact balances the pressures at its two edges, for some half-width.
     #[error(
         "no contact is found near x = {near}: none of half-width {half_width}, the width asked for or else the \
-         last that was tried, is in balance there; {SEVERAL}, or give a start",
-        near = six(*near), half_width = six(*half_width)
+         last that was tried, is in balance there; {}",
+        how_to_balance(*near, *half_width), near = six(*near), half_width = six(*half_width)
     )]
     NoEquilibrium {
         /// Half-width asked for, or else the half-width tried last.
@@ -143,8 +143,8 @@ pub enum SolveError<T: Real> {
     },
     /// The forces on a contact are beyond the range of the number type.
     #[error(
-        "the forces on a contact from {} overflow: choose units in which they are \
-         nearer to 1, or give a start nearer to the contact", span(interval.left, interval.right)
+        "the forces on a contact from {} are too large or too small for these numbers: choose units in which they \
+         are nearer to 1, or give a start nearer to the contact", span(interval.left, interval.right)
     )]
     Overflow {
         /// The contact.
@@ -313,14 +313,14 @@ pub enum SolveError<T: Real> {
     },
     /// The bodies come apart: the tensile load exceeds the adhesion.
     #[error(
-        "no contact under the load {load}: the pull is more than the adhesion can bear; the \
-         contact was followed down to {least}; pull less",
-        load = apart(*load, &[*least]), least = apart(*least, &[*load])
+        "no contact under the load {}: the adhesion gives way to a larger pull than {}, the pull-off force to about a \
+         thousandth; pull less", apart(*load, &[*least]), apart(*least, &[*load])
     )]
     PullOff {
         /// Load per unit length asked for.
         load: T,
-        /// The least load under which a contact was found.
+        /// The least load under which a contact was found: less than about a thousandth more, and
+        /// the bodies come apart.
         least: T,
     },
     /// The contact with this peak pressure reaches beyond a body or a corner.

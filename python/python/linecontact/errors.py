@@ -1076,7 +1076,8 @@ class PullOffError(SolveError):
     load : float
         Load per unit length asked for.
     least : float
-        The least load under which a contact was found.
+        The least load under which a contact was found: less than about a thousandth more, and the
+        bodies come apart.
     """
 
     load: float
