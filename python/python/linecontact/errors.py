@@ -346,7 +346,8 @@ class LayerTooThinError(InputError):
     Attributes
     ----------
     ratio : float
-        Half-width by thickness; by half the distance of the nearest singularity of a kernel.
+        Half-width by thickness, to about a tenth; by half the distance of the nearest singularity
+        of a kernel.
     limit : float
         Largest ratio that is solved.
     """
