@@ -37,8 +37,8 @@ pub(crate) fn six<T: Real>(value: T) -> Rounded {
     Rounded(value.to_subset_unchecked(), DIGITS)
 }
 
-/// Rounds a place in an interval: with more digits than others by as many as the interval is shorter
-/// than it is far from 0.
+/// Rounds a place in an interval: with more digits than others by as many as the interval is
+/// shorter than it is far from 0.
 pub(crate) fn within<T: Real>(x: T, on: &Interval<T>, digits: usize) -> Rounded {
     let far = on.left.abs().max(on.right.abs()) / (on.right - on.left);
     let more: f64 = far.log10().floor().max(T::zero()).component(0).to_subset_unchecked();

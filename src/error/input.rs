@@ -141,7 +141,8 @@ pub enum InputError<T: Real> {
          take the layer for a foundation of springs, or its base for the body", six(*ratio), six(*limit)
     )]
     LayerTooThin {
-        /// Half-width by thickness, to about a tenth; by half the distance of the nearest singularity of a kernel.
+        /// Half-width by thickness, to about a tenth; by half the distance of the nearest
+        /// singularity of a kernel.
         ratio: T,
         /// Largest ratio that is solved.
         limit: T,

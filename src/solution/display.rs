@@ -21,8 +21,8 @@ fn place<T: Real>(x: T, width: T) -> T {
 
 /// Writes contacts, load, largest pressure and quality in three lines, and warnings: of a largest
 /// pressure that is uncertain by more than 1e-3, of a stiffness that was not given, and of bodies
-/// that [conform](Solution::conformity) or [are steep](Solution::is_steep). Numbers have six digits,
-/// or as many as the precision (`{:.3}`); places have more if they are far from 0.
+/// that [conform](Solution::conformity) or [are steep](Solution::is_steep). Numbers have six
+/// digits, or as many as the precision (`{:.3}`); places have more if they are far from 0.
 impl<T: Real> Display for Solution<'_, T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         let (contacts, digits) = (self.intervals(), f.precision().unwrap_or(DIGITS));
@@ -81,7 +81,7 @@ impl<T: Real> Solution<'_, T> {
     /// corner that would have to pull, and for bodies unlike half-planes.
     fn warn(&self, peak: Option<Peak<T>>, f: &mut Formatter<'_>) -> Result {
         let (hull, found, digits) = (self.hull(), &self.found, f.precision().unwrap_or(DIGITS));
-        let at = |x: T| within(x, &hull, digits);
+        let at = |x: T| within(place(x, hull.right - hull.left), &hull, digits);
         if let Some(Peak { x, pressure }) = peak
             && let Ok(all) = self.pressure()
             && let Ok(Estimate { error, .. }) = all.estimate(x, &mut Cost::default())

@@ -68,8 +68,8 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         line_of_load(self.control).map_or_else(|| self.stuck(), |of| unknown.too_short(of.0))
     }
 
-    /// Estimates the contact: that on half-planes as soft as the surfaces are to waves of its width.
-    /// Springs have half a wave in 0.75 of the width, and incompressible layers in 1.05.
+    /// Estimates the contact: that on half-planes as soft as the surfaces are to waves of its
+    /// width. Springs have such a wave in 1.33 of the width, incompressible layers in 0.96.
     fn estimated(&mut self) -> Fallible<T, Option<Interval<T>>> {
         let Some(distance) = self.kernel.layer_distance() else { return Ok(None) };
         let mut scene = self.contact.clone();
