@@ -84,8 +84,7 @@ pub enum SolveError<T: Real> {
     /// The contact that carries the load reaches beyond a body; of several contacts, the first or
     /// the last does. Or the bodies touch at an end before any limit gets there.
     #[error(
-        "{}, or give Edge::FreeUntil({end:?}) if the bodies have a sharp \
-         corner there{}",
+        "{}, or give Edge::FreeUntil({end:?}) if the bodies have a sharp corner there{}",
         borne(*end, [*carried, *load], *half_width, *peak), hint(*kappa_is_default)
     )]
     DomainTooShort {
@@ -248,9 +247,8 @@ pub enum SolveError<T: Real> {
     /// The slope of the gap inside the contact differs from the panels by which the contact was
     /// found: a feature lies between two of their samples.
     #[error(
-        "the slope of the gap at x = {x} is {slope}, where the panels say {assumed}: something \
-         narrow has been missed there; declare breakpoints at its ends, or correct the curve",
-        x = six(*x), slope = apart(*slope, &[*assumed]), assumed = apart(*assumed, &[*slope])
+        "the slope of the gap at x = {x} is {slope}, where the panels say {assumed}: something narrow has been missed \
+         there; declare breakpoints at its ends, or correct the curve", x = six(*x), slope = apart(*slope, &[*assumed]), assumed = apart(*assumed, &[*slope])
     )]
     FeatureMissed {
         /// Abscissa of the difference.
@@ -263,10 +261,10 @@ pub enum SolveError<T: Real> {
     /// The samples of the certificate give the pressure a singularity at a free edge that the found
     /// contact does not have: the limits were found from a part of the curves only.
     #[error(
-        "the limits do not balance the bodies: at the free edge x = {x} the pressure would have a \
-         singularity of strength {strength}, where the limits were found to within {allowed}; declare \
-         breakpoints, give a start nearer to the contact, or correct the curves, which must be the same at \
-         each call", x = six(*x), strength = six(*strength), allowed = six(*allowed)
+        "the limits do not balance the bodies: at the free edge x = {x} the pressure would have a singularity of \
+         strength {strength}, where the limits were found to within {allowed}; declare breakpoints, give a start nearer \
+         to the contact, or correct the curves, which must be the same at each call",
+        x = six(*x), strength = six(*strength), allowed = six(*allowed)
     )]
     Unbalanced {
         /// Abscissa of the limit.
@@ -278,10 +276,9 @@ pub enum SolveError<T: Real> {
     },
     /// The certificate has spent its budget, or the limits are too doubtful for one.
     #[error(
-        "whether the solution is the contact is not decided after {evaluations} evaluations and \
-         {samples} samples: at x = {x} it would take more, or limits with smaller errors; narrow the \
-         domains, declare breakpoints, or solve with a smaller tolerance",
-        x = six(*x)
+        "whether the solution is the contact is not decided after {evaluations} evaluations and {samples} samples: at \
+         x = {x} it would take more, or limits with smaller errors; narrow the domains, declare breakpoints, or solve \
+         with a smaller tolerance", x = six(*x)
     )]
     Undecided {
         /// Abscissa at which the certificate has stopped.
@@ -293,9 +290,8 @@ pub enum SolveError<T: Real> {
     },
     /// No tilt makes the load act at the place asked for: the contact would leave the bodies.
     #[error(
-        "no tilt makes the load {load} act at x = {at}: the nearest is x = {reached}, with the tilt \
-         {tilt}, and beyond that the contact leaves the bodies, from x = {}; move the load \
-         inward, lower it, or extend the domain",
+        "no tilt makes the load {load} act at x = {at}: the nearest is x = {reached}, with the tilt {tilt}, and beyond \
+         that the contact leaves the bodies, from x = {}; move the load inward, lower it, or extend the domain",
         span(ends.left, ends.right), load = six(*load), at = apart(*at, &[*reached]),
         reached = apart(*reached, &[*at]), tilt = six(*tilt)
     )]
@@ -325,9 +321,8 @@ pub enum SolveError<T: Real> {
     },
     /// The contact with this peak pressure reaches beyond a body or a corner.
     #[error(
-        "the peak pressure {wanted} takes a wider contact than there is room for: with half-width \
-         {half_width}, up to x = {end}, it is {found} under the load {load}; extend the domains \
-         or lower the peak{}",
+        "the peak pressure {wanted} takes a wider contact than there is room for: with half-width {half_width}, up to \
+         x = {end}, it is {found} under the load {load}; extend the domains or lower the peak{}",
         hint(*kappa_is_default), wanted = apart(*wanted, &[*found]), found = apart(*found, &[*wanted]),
         half_width = six(*half_width), end = six(*end), load = six(*load)
     )]
