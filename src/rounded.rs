@@ -1,6 +1,7 @@
 //! Numbers as they are shown: with their significant digits.
 
-use crate::Real;
+use crate::{Interval, Real};
+use num_traits::ToPrimitive;
 use std::fmt::{Display, Formatter, Result};
 
 /// Number of digits shown, unless a precision asks for more or another number must be told apart.
@@ -34,6 +35,14 @@ impl Display for Rounded {
 /// Rounds a number in a message to six digits; the fields of the error have all of them.
 pub(crate) fn six<T: Real>(value: T) -> Rounded {
     Rounded(value.to_subset_unchecked(), DIGITS)
+}
+
+/// Rounds a place in an interval: with more digits than others by as many as the interval is
+/// shorter than it is far from 0.
+pub(crate) fn within<T: Real>(x: T, on: &Interval<T>, digits: usize) -> Rounded {
+    let far = on.left.abs().max(on.right.abs()) / (on.right - on.left);
+    let more: f64 = far.log10().floor().max(T::zero()).component(0).to_subset_unchecked();
+    Rounded(x.to_subset_unchecked(), ALL_DIGITS.min(digits + more.to_usize().unwrap_or(0)))
 }
 
 /// Rounds a number in a message that names others too: with more digits if six do not tell them

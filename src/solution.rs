@@ -96,6 +96,8 @@ pub struct Solution<'b, T: Real> {
     /// Integrator that has solved the contact.
     pub(crate) integrator: Arc<Engine<T>>,
     pub(crate) kappa: T,
+    /// Flag: nobody has set κ.
+    pub(crate) has_default_stiffness: bool,
     /// Elasticity of the bodies, if it is known.
     pub(crate) elasticity: Option<[Elasticity<T>; 2]>,
     pub(crate) found: ContactState<T>,

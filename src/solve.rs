@@ -121,9 +121,9 @@ impl<'b, T: Real> Contact<'b, T> {
         bent: Option<Box<Gap<'b, T>>>,
     ) -> Solution<'b, T> {
         let gap = bent.as_deref().unwrap_or(&self.gap).tilted(found.tilt).into_owned();
-        let kappa = self.kappa;
+        let (kappa, has_default_stiffness) = (self.kappa, self.has_default_stiffness());
         let elasticity = self.elasticity().ok().flatten();
-        Solution { gap, integrator, kappa, elasticity, found, cost, report }
+        Solution { gap, integrator, kappa, has_default_stiffness, elasticity, found, cost, report }
     }
 }
 

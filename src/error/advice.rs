@@ -66,6 +66,18 @@ pub(super) fn along<T: Real>([from, to]: [T; 2]) -> String {
 pub(super) const SEVERAL: &str = "change what is given a little, declare kinks as breakpoints, smooth measured points \
     (Fit::smooth); with adhesion, single_interval, or a search or quadrature of your own only one contact is sought";
 
+/// Share of a half-width in the rounding of x from which on no contact can be found, as its limits
+/// have an error of a few roundings.
+const LOST: f64 = 1e-3;
+
+/// Returns the remedy where no contact of a half-width is in balance.
+pub(super) fn how_to_balance<T: Real>(near: T, half_width: T) -> String {
+    match T::epsilon() * near.abs() > T::of(LOST) * half_width {
+        true => "x is too far from 0 to have digits for it: move the origin to the contact".into(),
+        false => format!("{SEVERAL}, or give a start"),
+    }
+}
+
 /// Returns the remedy for a negative pressure.
 pub(super) fn how_to_press<T: Real>(pressure: T) -> &'static str {
     if pressure.is_finite() {

@@ -137,12 +137,12 @@ pub enum InputError<T: Real> {
     },
     /// A contact is too wide for the layer below it, or another kernel as short.
     #[error(
-        "the half-width of the contact is {} times the thickness of its layer, and at most {} times \
-         are solved: take the layer for a foundation of springs, or its base for the body",
-        six(*ratio), six(*limit)
+        "the half-width of the contact is about {} times the thickness of its layer, and at most {} times are solved: \
+         take the layer for a foundation of springs, or its base for the body", six(*ratio), six(*limit)
     )]
     LayerTooThin {
-        /// Half-width by thickness; by half the distance of the nearest singularity of a kernel.
+        /// Half-width by thickness, to about a tenth; by half the distance of the nearest
+        /// singularity of a kernel.
         ratio: T,
         /// Largest ratio that is solved.
         limit: T,

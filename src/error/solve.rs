@@ -1,7 +1,7 @@
 //! Errors of a solve.
 
 use super::advice::{
-    SEVERAL, at_peak, borne, hint, how_to_peak, how_to_press, how_to_touch, place,
+    SEVERAL, at_peak, borne, hint, how_to_balance, how_to_peak, how_to_press, how_to_touch, place,
 };
 use crate::rounded::{apart, six, span};
 use crate::search::SearchError;
@@ -84,8 +84,7 @@ pub enum SolveError<T: Real> {
     /// The contact that carries the load reaches beyond a body; of several contacts, the first or
     /// the last does. Or the bodies touch at an end before any limit gets there.
     #[error(
-        "{}, or give Edge::FreeUntil({end:?}) if the bodies have a sharp \
-         corner there{}",
+        "{}, or give Edge::FreeUntil({end:?}) if the bodies have a sharp corner there{}",
         borne(*end, [*carried, *load], *half_width, *peak), hint(*kappa_is_default)
     )]
     DomainTooShort {
@@ -132,8 +131,8 @@ pub enum SolveError<T: Real> {
     /// No position of a contact balances the pressures at its two edges, for some half-width.
     #[error(
         "no contact is found near x = {near}: none of half-width {half_width}, the width asked for or else the \
-         last that was tried, is in balance there; {SEVERAL}, or give a start",
-        near = six(*near), half_width = six(*half_width)
+         last that was tried, is in balance there; {}",
+        how_to_balance(*near, *half_width), near = six(*near), half_width = six(*half_width)
     )]
     NoEquilibrium {
         /// Half-width asked for, or else the half-width tried last.
@@ -143,8 +142,8 @@ pub enum SolveError<T: Real> {
     },
     /// The forces on a contact are beyond the range of the number type.
     #[error(
-        "the forces on a contact from {} overflow: choose units in which they are \
-         nearer to 1, or give a start nearer to the contact", span(interval.left, interval.right)
+        "the forces on a contact from {} are too large or too small for these numbers: choose units in which they \
+         are nearer to 1, or give a start nearer to the contact", span(interval.left, interval.right)
     )]
     Overflow {
         /// The contact.
@@ -248,9 +247,8 @@ pub enum SolveError<T: Real> {
     /// The slope of the gap inside the contact differs from the panels by which the contact was
     /// found: a feature lies between two of their samples.
     #[error(
-        "the slope of the gap at x = {x} is {slope}, where the panels say {assumed}: something \
-         narrow has been missed there; declare breakpoints at its ends, or correct the curve",
-        x = six(*x), slope = apart(*slope, &[*assumed]), assumed = apart(*assumed, &[*slope])
+        "the slope of the gap at x = {x} is {slope}, where the panels say {assumed}: something narrow has been missed \
+         there; declare breakpoints at its ends, or correct the curve", x = six(*x), slope = apart(*slope, &[*assumed]), assumed = apart(*assumed, &[*slope])
     )]
     FeatureMissed {
         /// Abscissa of the difference.
@@ -263,10 +261,10 @@ pub enum SolveError<T: Real> {
     /// The samples of the certificate give the pressure a singularity at a free edge that the found
     /// contact does not have: the limits were found from a part of the curves only.
     #[error(
-        "the limits do not balance the bodies: at the free edge x = {x} the pressure would have a \
-         singularity of strength {strength}, where the limits were found to within {allowed}; declare \
-         breakpoints, give a start nearer to the contact, or correct the curves, which must be the same at \
-         each call", x = six(*x), strength = six(*strength), allowed = six(*allowed)
+        "the limits do not balance the bodies: at the free edge x = {x} the pressure would have a singularity of \
+         strength {strength}, where the limits were found to within {allowed}; declare breakpoints, give a start nearer \
+         to the contact, or correct the curves, which must be the same at each call",
+        x = six(*x), strength = six(*strength), allowed = six(*allowed)
     )]
     Unbalanced {
         /// Abscissa of the limit.
@@ -278,10 +276,9 @@ pub enum SolveError<T: Real> {
     },
     /// The certificate has spent its budget, or the limits are too doubtful for one.
     #[error(
-        "whether the solution is the contact is not decided after {evaluations} evaluations and \
-         {samples} samples: at x = {x} it would take more, or limits with smaller errors; narrow the \
-         domains, declare breakpoints, or solve with a smaller tolerance",
-        x = six(*x)
+        "whether the solution is the contact is not decided after {evaluations} evaluations and {samples} samples: at \
+         x = {x} it would take more, or limits with smaller errors; narrow the domains, declare breakpoints, or solve \
+         with a smaller tolerance", x = six(*x)
     )]
     Undecided {
         /// Abscissa at which the certificate has stopped.
@@ -293,9 +290,8 @@ pub enum SolveError<T: Real> {
     },
     /// No tilt makes the load act at the place asked for: the contact would leave the bodies.
     #[error(
-        "no tilt makes the load {load} act at x = {at}: the nearest is x = {reached}, with the tilt \
-         {tilt}, and beyond that the contact leaves the bodies, from x = {}; move the load \
-         inward, lower it, or extend the domain",
+        "no tilt makes the load {load} act at x = {at}: the nearest is x = {reached}, with the tilt {tilt}, and beyond \
+         that the contact leaves the bodies, from x = {}; move the load inward, lower it, or extend the domain",
         span(ends.left, ends.right), load = six(*load), at = apart(*at, &[*reached]),
         reached = apart(*reached, &[*at]), tilt = six(*tilt)
     )]
@@ -313,21 +309,20 @@ pub enum SolveError<T: Real> {
     },
     /// The bodies come apart: the tensile load exceeds the adhesion.
     #[error(
-        "no contact under the load {load}: the pull is more than the adhesion can bear; the \
-         contact was followed down to {least}; pull less",
-        load = apart(*load, &[*least]), least = apart(*least, &[*load])
+        "no contact under the load {}: the adhesion gives way to a larger pull than {}, the pull-off force to about a \
+         thousandth; pull less", apart(*load, &[*least]), apart(*least, &[*load])
     )]
     PullOff {
         /// Load per unit length asked for.
         load: T,
-        /// The least load under which a contact was found.
+        /// The least load under which a contact was found: less than about a thousandth more, and
+        /// the bodies come apart.
         least: T,
     },
     /// The contact with this peak pressure reaches beyond a body or a corner.
     #[error(
-        "the peak pressure {wanted} takes a wider contact than there is room for: with half-width \
-         {half_width}, up to x = {end}, it is {found} under the load {load}; extend the domains \
-         or lower the peak{}",
+        "the peak pressure {wanted} takes a wider contact than there is room for: with half-width {half_width}, up to \
+         x = {end}, it is {found} under the load {load}; extend the domains or lower the peak{}",
         hint(*kappa_is_default), wanted = apart(*wanted, &[*found]), found = apart(*found, &[*wanted]),
         half_width = six(*half_width), end = six(*end), load = six(*load)
     )]

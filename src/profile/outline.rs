@@ -177,6 +177,9 @@ impl<T: Real> Outline<T> {
         let mut end = (self.start, T::zero());
         for (i, drawn) in self.drawn.iter().enumerate() {
             let fault = |source| PiecewiseError::InSegment { segment: i + 1, source };
+            for start in end.0 {
+                finite("a coordinate of the start", start, true, "finite").map_err(fault)?;
+            }
             let mut segment = Segment::behind(end, drawn).map_err(fault)?;
             end = segment.end(1);
             if let Some(finish) = drawn.corner.1 {

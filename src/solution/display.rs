@@ -2,18 +2,16 @@
 
 use super::stress::Stress;
 use super::{Certificate, Conformity, Extremum, Peak, Solution};
-use crate::rounded::{DIGITS, Rounded};
-use crate::{ContactError, Estimate, EvaluationError, Interval, Real, Side};
+use crate::rounded::{DIGITS, Rounded, within};
+use crate::{ContactError, Cost, Estimate, EvaluationError, Real, Side};
 use std::fmt::{Display, Formatter, Result};
 
 fn rounded<T: Real>(value: T, f: &Formatter<'_>) -> Rounded {
     Rounded(value.to_subset_unchecked(), f.precision().unwrap_or(DIGITS))
 }
 
-fn interval<T: Real>(on: &Interval<T>, f: &mut Formatter<'_>) -> Result {
-    let [left, right] = [on.left, on.right].map(|x| rounded(x, f));
-    write!(f, "[{left}, {right}]")
-}
+/// Share of the largest pressure from which on its error is told.
+const UNCERTAIN: f64 = 1e-3;
 
 /// Returns a place, or zero if it is zero to rounding, in a range of this width: a place of a
 /// largest value has half of the digits.
@@ -21,12 +19,13 @@ fn place<T: Real>(x: T, width: T) -> T {
     if x.abs() > T::epsilon().sqrt() * width { x } else { T::zero() }
 }
 
-/// Writes contacts, load, largest pressure and quality in three lines, and a warning of bodies that
-/// [conform](Solution::conformity) or [are steep](Solution::is_steep); with six digits, or as
-/// many as the precision (`{:.3}`).
+/// Writes contacts, load, largest pressure and quality in three lines, and warnings: of a largest
+/// pressure that is uncertain by more than 1e-3, of a stiffness that was not given, and of bodies
+/// that [conform](Solution::conformity) or [are steep](Solution::is_steep). Numbers have six
+/// digits, or as many as the precision (`{:.3}`); places have more if they are far from 0.
 impl<T: Real> Display for Solution<'_, T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        let contacts = self.intervals();
+        let (contacts, digits) = (self.intervals(), f.precision().unwrap_or(DIGITS));
         if self.is_apart() {
             let [from, to] = self.solved().gap.range();
             let x = place(self.a(), to - from);
@@ -39,20 +38,21 @@ impl<T: Real> Display for Solution<'_, T> {
         }
         for (i, on) in contacts.iter().enumerate() {
             f.write_str(if i > 0 { ", " } else { "" })?;
-            interval(on, f)?;
+            let [left, right] = [on.left, on.right].map(|x| within(x, on, digits));
+            write!(f, "[{left}, {right}]")?;
         }
         write!(f, "\nload {}", rounded(self.load(), f))?;
         if !self.tilt().is_zero() {
             write!(f, ", tilt {}", rounded(self.tilt(), f))?;
         }
-        match self.peak() {
-            Ok(peak) => {
-                f.write_str(", largest pressure ")?;
-                let on = self.hull();
-                Peak { x: place(peak.x, on.right - on.left), ..peak }.fmt(f)?;
+        let (hull, peak) = (self.hull(), self.peak());
+        let at = |x: T| within(place(x, hull.right - hull.left), &hull, digits);
+        match peak {
+            Ok(Peak { x, pressure }) => {
+                write!(f, ", largest pressure {} at x = {}", rounded(pressure, f), at(x))?;
             }
             Err(ContactError::Evaluation(EvaluationError::Singular { x })) => {
-                write!(f, ", pressure infinite at x = {}", rounded(x, f))?;
+                write!(f, ", pressure infinite at x = {}", at(x))?;
             }
             Err(_) => f.write_str(", largest pressure not found")?,
         }
@@ -61,32 +61,43 @@ impl<T: Real> Display for Solution<'_, T> {
                 let error = Rounded(error.to_subset_unchecked(), 2);
                 write!(f, "\nlimits to {error} of the half-width, ")?;
                 let solved = self.solved();
-                let held: Vec<_> = solved
-                    .held_limits()
-                    .filter(|&(_, side, _)| !self.found.adhesive[side])
-                    .collect();
+                let held = solved.held_limits().filter(|held| !self.found.adhesive[held.1]);
+                let held: Vec<_> = held.collect();
                 for (n, &(i, side, _)) in held.iter().rev().enumerate() {
                     f.write_str(if n > 0 { ", " } else { "held at x = " })?;
-                    write!(f, "{}", rounded(solved.contacts()[i][side], f))?;
+                    write!(f, "{}", at(solved.contacts()[i][side]))?;
                 }
                 f.write_str(if held.is_empty() { "" } else { ", " })?;
             }
             None => f.write_str("\nlimits given, ")?,
         }
         f.write_str(if self.report().is_checked() { "checked" } else { "not checked" })?;
-        self.warn(f)
+        self.warn(peak.ok(), f)
     }
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// Writes a line for each corner that would have to pull, and for bodies unlike half-planes.
-    fn warn(&self, f: &mut Formatter<'_>) -> Result {
+    /// Writes a line for a peak that is uncertain, for a stiffness that was not given, for each
+    /// corner that would have to pull, and for bodies unlike half-planes.
+    fn warn(&self, peak: Option<Peak<T>>, f: &mut Formatter<'_>) -> Result {
+        let (hull, found, digits) = (self.hull(), &self.found, f.precision().unwrap_or(DIGITS));
+        let at = |x: T| within(place(x, hull.right - hull.left), &hull, digits);
+        if let Some(Peak { x, pressure }) = peak
+            && let Ok(all) = self.pressure()
+            && let Ok(Estimate { error, .. }) = all.estimate(x, &mut Cost::default())
+            && error > T::of(UNCERTAIN) * pressure
+        {
+            let [error, x] = [Rounded(error.to_subset_unchecked(), 2), at(x)];
+            write!(f, "\nthe largest pressure is uncertain by {error}: ")?;
+            write!(f, "is a corner at x = {x} no breakpoint, or the quadrature coarse?")?;
+        }
+        if self.has_default_stiffness {
+            f.write_str("\nκ is 1, as no modulus and no materials were given")?;
+        }
         for side in Side::BOTH {
-            let (x, strength) = (self.hull()[side], self.edge_singularities()[side]);
-            if !self.found.adhesive[side]
-                && strength < -T::epsilon().sqrt() * self.mean_pressure().abs()
-            {
-                let x = rounded(x, f);
+            let least = -found.zero_tolerance() * self.mean_pressure().abs();
+            if !found.adhesive[side] && found.strengths[side] < least {
+                let x = at(hull[side]);
                 write!(f, "\nthe bodies would have to pull at each other at x = {x}")?;
             }
         }

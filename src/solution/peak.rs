@@ -154,7 +154,7 @@ pub(crate) fn largest_pressure<T: Real>(
             return Ok((breakpoint, Estimate { value: there, error: T::zero() }));
         }
     }
-    if !search.top.1.is_resolved() {
+    if !search.counts(search.top.1) {
         // Next to an edge a rule of few segments has no correct digit, and may give any value.
         search.keep_resolved(&mut grid)?;
     }
@@ -255,12 +255,18 @@ struct Search<'s, 'g, T: Real> {
 }
 
 impl<T: Real> Search<'_, '_, T> {
+    /// Tells whether a pressure counts: of panels one without a correct digit does, too, as next to
+    /// a corner that is no breakpoint.
+    fn counts(&self, pressure: Estimate<T>) -> bool {
+        self.integrator.panels().is_some() || pressure.is_resolved()
+    }
+
     /// Takes the pressure at `x` into account, and returns it.
     fn meet(&mut self, x: T) -> Result<Estimate<T>, ContactError<T>> {
         let found = self.integrator.estimate(self.gap, self.load_case, x, self.cost)?;
         let top = self.top.1;
-        let are_alike = found.is_resolved() == top.is_resolved();
-        let is_higher = if are_alike { found.value > top.value } else { found.is_resolved() };
+        let are_alike = self.counts(found) == self.counts(top);
+        let is_higher = if are_alike { found.value > top.value } else { self.counts(found) };
         if is_higher {
             self.top = (x, found);
         }

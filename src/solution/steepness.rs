@@ -2,7 +2,7 @@
 
 use super::Solution;
 use crate::gap::Sampler;
-use crate::{Body, ContactError, Ends, Real, Side};
+use crate::{Body, ContactError, Ends, Interval, Real, Side};
 use std::f64::consts::PI;
 
 /// Slope of a surface above which the half-plane is a poor model of a body. Its error is of the
@@ -12,6 +12,10 @@ pub const STEEPEST_HALF_PLANE: f64 = 0.3;
 
 /// Number of points of each contact at which slopes are taken.
 const SLOPE_POINTS: usize = 17;
+
+/// Share of the width of a contact beside its limits in which slopes tell nothing: a body may bear
+/// there on the edge of a wall or a chamfer.
+const EDGE: f64 = 1e-3;
 
 /// Least angle of bodies that conform: 9.1°, at which Hertz's peak in a hole is 1 % too low.
 const LEAST_CONFORMING: f64 = 9.1 * PI / 180.0;
@@ -47,27 +51,35 @@ impl<T: Real> Conformity<T> {
     }
 }
 
+/// Returns an interval less a share of its width at either end.
+fn but<T: Real>(on: Interval<T>, edge: T) -> Interval<T> {
+    let less = edge * (on.right - on.left);
+    Interval { left: on.left + less, right: on.right - less }
+}
+
 /// Tells whether a slope exceeds that of half-planes.
 pub(crate) fn is_steep<T: Real>(slope: T) -> bool {
     slope.abs() > T::of(STEEPEST_HALF_PLANE)
 }
 
 impl<T: Real> Solution<'_, T> {
-    /// Tells whether the slope of the gap at the limits of the contacts, or the
+    /// Tells whether the slope of the gap next to the limits of the contacts, or the
     /// [steepest slope](Self::steepest_slope) of either surface, exceeds [`STEEPEST_HALF_PLANE`]:
-    /// half-planes may then be a poor model of the bodies. Where a body cannot be sampled the gap
-    /// alone decides.
+    /// half-planes may then be a poor model of the bodies. A thousandth of each contact is left out
+    /// at either limit, where the bodies may bear on the edge of a wall. Where a body cannot be
+    /// sampled the gap alone decides.
     #[must_use]
     pub fn is_steep(&self) -> bool {
-        self.has_steep_limits() || self.steepest_slope().is_ok_and(is_steep)
+        self.has_steep_limits() || self.steepest_but(T::of(EDGE)).is_ok_and(is_steep)
     }
 
-    /// Tells whether the slope of the gap at the limits exceeds that of half-planes.
+    /// Tells whether the slope of the gap next to the limits exceeds that of half-planes.
     pub(crate) fn has_steep_limits(&self) -> bool {
-        let limits = self.intervals().iter().map(|on| [on.left, on.right]).enumerate();
+        let limits = self.intervals().iter().map(|&on| but(on, T::of(EDGE))).enumerate();
         let solved = self.solved();
-        let mut slopes = limits.flat_map(|(i, limits)| limits.map(|x| solved.sampled_slope(i, x)));
-        slopes.any(|slope| slope.is_some_and(|(slope, _)| is_steep(slope)))
+        let slopes =
+            |(i, on): (usize, Interval<T>)| [on.left, on.right].map(|x| solved.sampled_slope(i, x));
+        limits.flat_map(slopes).any(|slope| slope.is_some_and(|(slope, _)| is_steep(slope)))
     }
 
     /// Returns how the bodies conform, if they do, so that half-planes give too low a peak: at both
@@ -133,9 +145,14 @@ impl<T: Real> Solution<'_, T> {
     /// # Errors
     /// Those of sampling the bodies.
     pub fn steepest_slope(&self) -> Result<T, ContactError<T>> {
+        self.steepest_but(T::zero())
+    }
+
+    /// Returns the steepest slope but for a share of each contact at either limit.
+    fn steepest_but(&self, edge: T) -> Result<T, ContactError<T>> {
         let (gap, mut sampler) = (&self.gap, Sampler::default());
         let mut steepest = T::zero();
-        for &on in self.intervals() {
+        for on in self.intervals().iter().map(|&on| but(on, edge)) {
             let angle = |i: usize| T::pi() * T::count(i) / T::count(SLOPE_POINTS - 1);
             let inside = (1..SLOPE_POINTS - 1).map(|i| (on.at_angle(angle(i)), Side::Left));
             let limits = [(on.left, Side::Right), (on.right, Side::Left)];

@@ -413,27 +413,19 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
 
     /// Finds the contact of the bent bodies.
     fn solve(&mut self) -> Fallible<T, Solve<'b, T>> {
-        let (kappa, is_checked, is_last) =
-            (self.contact.kappa, self.is_checked, self.has_converged);
+        let (is_checked, is_last) = (self.is_checked, self.has_converged);
         let gap = match (self.bent.take(), hull(&self.spreads)) {
             (Some(bent), _) => bent,
             (None, None) => self.gap.clone(),
             (None, Some(on)) => {
                 self.kernel.in_range(self.gap.range(), on);
-                self.gap.bent(Bend::new(&self.kernel, &self.spreads), kappa)
+                self.gap.bent(Bend::new(&self.kernel, &self.spreads), self.contact.kappa)
             }
         };
         let mut scene = self.contact.clone();
         scene.gap = gap.clone();
         (scene.single_interval, scene.is_trial) = (scene.single_interval | !is_checked, !is_last);
-        let control = self.control;
-        let Work { integrator, workspace, cost } = &mut *self.work;
-        **cost += integrator.cost();
-        let id = Some(gap.id());
-        integrator.reset(workspace.bent == id);
-        workspace.bent = id;
-        (workspace.report, workspace.cell_work) = (Report::new(), 0);
-        let found = find_under(&scene, control, self.work)?;
+        let found = self.found_on(&scene)?;
         if let Err(error) = check_width(&self.kernel, found.interval.half_width(), MOST_TIMES) {
             self.work.workspace.keep(&[found.interval]);
             return Err(error);
@@ -443,6 +435,17 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         self.work.keep(&gap.tilted(found.tilt), found.interval)?;
         let is_checked = is_checked && is_last || self.contact.single_interval;
         Ok(Solve { found, gap, is_checked })
+    }
+
+    /// Finds the contact of a scene without its kernel.
+    fn found_on(&mut self, scene: &Contact<'b, T>) -> Fallible<T, ContactState<T>> {
+        let Work { integrator, workspace, cost } = &mut *self.work;
+        **cost += integrator.cost();
+        let id = Some(scene.gap.id());
+        integrator.reset(workspace.bent == id);
+        workspace.bent = id;
+        (workspace.report, workspace.cell_work) = (Report::new(), 0);
+        find_under(scene, self.control, self.work)
     }
 
     /// Corrects the pressures of a solve.

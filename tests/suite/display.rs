@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{Profile, join, on_flat, quartic};
-use linecontact::profile::{Ellipse, Parabola, Placed, Placement};
+use linecontact::profile::{Ellipse, Outline, Parabola, Placed, Placement};
 use linecontact::stress::Stress;
 use linecontact::{
     Contact, Control, Cost, Curve, CurvePoint, Edge, Estimate, Extremum, Flat, Interval, Peak,
@@ -31,7 +31,7 @@ fn intervals_and_numbers() {
 #[test]
 fn a_solution_in_three_lines() {
     let body = Parabola::new(1.0f64, [-1.0, 1.0]).unwrap();
-    let contact = Contact::new(&Flat, &body).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(1.0);
     let text = contact.solve(Control::HalfWidth(0.2)).unwrap().to_string();
     let lines: Vec<_> = text.lines().collect();
     assert_eq!(lines.len(), 3);
@@ -46,6 +46,49 @@ fn a_solution_in_three_lines() {
 
     let tilted = contact.solve(Control::CentreOfPressure { load: 0.02, at: 0.1 }).unwrap();
     assert!(tilted.to_string().contains("load 0.02, tilt -0.1, largest"), "{tilted}");
+}
+
+#[test]
+fn a_stiffness_that_nobody_gave_is_told() {
+    let body = Parabola::new(1.0f64, [-1.0, 1.0]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap();
+    for (contact, told) in [(contact.clone(), true), (contact.kappa(1.0), false)] {
+        let text = contact.solve(Control::Load(0.02)).unwrap().to_string();
+        assert_eq!(text.ends_with("\nκ is 1, as no modulus and no materials were given"), told);
+    }
+}
+
+/// Places far from 0 have six digits of the width, too, and residuals within the error of the
+/// limits pull at nothing.
+#[test]
+fn places_far_from_the_origin_are_told_apart() {
+    let cases = [
+        (1e3, "contact [999.764717, 1000.23528]"),
+        (1e6, "contact [999999.764717, 1.00000023528e6]"),
+        (1e9, "contact [9.99999999764717e8, 1.00000000023528e9]"),
+    ];
+    for (origin, expected) in cases {
+        let body = Curve::new([origin - 1.0, origin + 1.0], |k: f64| {
+            let x = k - origin;
+            CurvePoint { x: k, y: 0.05 * x * x, dx: 1.0, dy: 0.1 * x }
+        });
+        let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115e3);
+        let text = contact.solve(Control::Load(500.0)).unwrap().to_string();
+        let lines: Vec<_> = text.lines().collect();
+        assert!(lines.len() == 3 && lines[0] == expected, "{text}");
+    }
+}
+
+/// A pad bears a little on the walls at its ends: they are no wrong unit.
+#[test]
+fn walls_next_to_the_limits_are_no_steep_surfaces() {
+    let pad = Outline::from([0.0, 0.0]).arc(1e5, 5.0).corner(1.0).line(1.0).mirrored();
+    let pad = pad.build().unwrap();
+    for load in [100.0, 500.0, 2e4] {
+        let contact = Contact::new(&Flat, &pad).unwrap().contact_modulus(115e3);
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        assert!(!solution.is_steep(), "{load}: {solution}");
+    }
 }
 
 /// The place of the largest pressure has half of the digits, that of first touch the rounding.
@@ -87,7 +130,8 @@ fn several_contacts_and_given_limits() {
     let text = on_flat(quartic(-2.0, 2.0)).solve(Control::Load(0.5)).unwrap().to_string();
     assert!(text.starts_with("2 contacts [-1.") && text.contains("], [0."), "{text}");
 
-    let punch = Contact::new(&Flat, &Flat).unwrap().edges(Edge::Fixed(-1.0), Edge::Fixed(1.0));
+    let punch = Contact::new(&Flat, &Flat).unwrap().kappa(1.0);
+    let punch = punch.edges(Edge::Fixed(-1.0), Edge::Fixed(1.0));
     let text = punch.solve(Control::Load(0.3)).unwrap().to_string();
     let expected = "contact [-1, 1]\nload 0.3, pressure infinite at x = 1\nlimits given, checked";
     assert_eq!(text, expected);
@@ -110,7 +154,7 @@ fn limits_that_corners_hold_are_named() {
         }))
     };
     let body = join(knots.windows(2).map(line).collect());
-    let contact = Contact::new(&Flat, &*body).unwrap();
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(1.0);
     let contact = contact.edges(Edge::Fixed(-2.0), Edge::FreeUntil(2.0));
     let text = contact.solve(Control::Load(0.3)).unwrap().to_string();
     assert!(text.ends_with(" of the half-width, held at x = -2, -1, 1, 2, checked"), "{text}");

@@ -170,7 +170,11 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
                 "start",
             ],
         ),
-        (ContactError::Solve(SolveError::Overflow { interval: ON }), &["units"]),
+        (
+            ContactError::Solve(SolveError::NoEquilibrium { half_width: 1.5e-13, near: 16.5 }),
+            &["near x = 16.5", "too far from 0", "move the origin"],
+        ),
+        (ContactError::Solve(SolveError::Overflow { interval: ON }), &["too small", "units"]),
         (
             ContactError::Solve(SolveError::BudgetSpent { evaluations: 42, budget: 43, last: ON }),
             &["the budget is 43", "breakpoints"],
@@ -263,7 +267,7 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
         ),
         (
             ContactError::Solve(SolveError::PullOff { load: -3.5, least: -2.5 }),
-            &["load -3.5", "down to -2.5", "pull less"],
+            &["load -3.5", "than -2.5, the pull-off force", "pull less"],
         ),
         (
             ContactError::Input(InputError::PeakEdge { edge: Edge::Fixed(1.5) }),

@@ -181,7 +181,8 @@ fn the_contact_of_an_outline_is_proved_and_that_of_its_shape() {
 #[test]
 fn what_cannot_be_drawn_is_named_by_its_segment() {
     let start = || Outline::from([0.0, 0.0]);
-    let cases: [(Outline<f64>, usize, &str, f64); 18] = [
+    let cases: [(Outline<f64>, usize, &str, f64); 19] = [
+        (Outline::from([0.0, f64::NAN]).line(1.0), 1, "a coordinate of the start", f64::NAN),
         (start().line(0.0), 1, "the length along x", 0.0),
         (start().line(1.0).line(f64::NAN), 2, "the length along x", f64::NAN),
         (start().line(1.0).arc(0.0, 1.0), 2, "the radius", 0.0),

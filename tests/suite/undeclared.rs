@@ -7,6 +7,7 @@ use crate::integrals::edge_integrals;
 
 use approx::assert_relative_eq;
 use common::{assert_close, graph, join, limits_off, on_flat, reference};
+use linecontact::reference::{ClosedForm, PowerLaw};
 use linecontact::{Contact, Control, Cost, Curve, CurvePoint, Flat, Interval, Panels};
 use linecontact::{ParametricProfile, Piecewise, Solution};
 use std::f64::consts::PI;
@@ -33,6 +34,64 @@ fn a_wedge_as_one_curve() {
             let exact = 2.0 * m / (PI * PI) * (1.0 / z.abs()).acosh();
             assert_close(pressure.at(s + z * l).unwrap(), exact, 1e-9);
         }
+    }
+}
+
+/// Returns `abs(x - s)ⁿ` on an interval that ends at s, or beyond it on both sides.
+fn power(n: f64, s: f64, ends: [f64; 2]) -> common::Profile {
+    let sign = move |x: f64| {
+        if x == s { (ends[0] + ends[1] - 2.0 * s).signum() } else { (x - s).signum() }
+    };
+    graph(ends[0], ends[1], move |x| {
+        let distance = (x - s).abs();
+        [distance.powf(n), n * distance.powf(n - 1.0) * sign(x)]
+    })
+}
+
+/// Returns the largest pressure of a power of the distance, its estimated error, and the text.
+fn peak_of(body: common::Profile, load: f64) -> (f64, f64, String) {
+    let contact = on_flat(body).kappa(1.0);
+    let solution = contact.solve(Control::Load(load)).unwrap();
+    let peak = solution.peak().unwrap();
+    let all = solution.pressure().unwrap();
+    let error = all.estimate(peak.x, &mut Cost::default()).unwrap().error;
+    (peak.pressure, error, solution.to_string())
+}
+
+/// Next to its tip the slope of such a body changes as much from 1e-200 to 1e-100 as from 1e-100
+/// to 1, and so does the pressure: the estimate has what no sample sees, and the text says so.
+#[test]
+fn the_peak_at_a_corner_that_is_no_breakpoint_is_uncertain() {
+    for (n, s) in [(1.02, 0.0), (1.05, 0.0), (1.1, 0.0), (1.02, 1e-3), (1.05, 1e-3)] {
+        let exact = PowerLaw::new(1.0, n, 0.2).unwrap();
+        let (value, error, text) = peak_of(power(n, s, [-1.0, 1.0]), exact.load(1.0));
+        let missed = exact.pressure(0.0, 1.0) - value;
+        println!("{n} at {s}: {missed:.2e} of {value}, said to be {error:.2e}");
+        assert!(missed.abs() <= error, "{missed:e} {error:e}");
+        let told = format!("is a corner at x = {s} no breakpoint");
+        assert!(text.contains("uncertain by") && text.contains(&told), "{text}");
+    }
+    // Of a jump it may be seen that the pressure is infinite.
+    for s in [0.0, 0.1, 1e-3] {
+        let text = on_flat(power(1.0, s, [-1.0, 1.0])).solve(Control::Load(0.1)).unwrap();
+        let text = text.to_string();
+        let is_told = text.contains(&format!("is a corner at x = {s} no breakpoint"));
+        assert!(is_told || text.contains(&format!("infinite at x = {s}\n")), "{text}");
+    }
+    let (.., text) = peak_of(power(1.5, 0.1, [-1.0, 1.0]), 0.1);
+    assert!(!text.contains("uncertain"), "{text}");
+}
+
+/// At a joint the slope is continuous, whatever the power: no pressure is infinite.
+#[test]
+fn the_peak_at_a_joint_of_low_powers_is_finite() {
+    for (n, most) in [(1.02, 1.0), (1.05, 1e-6), (1.1, 1e-12)] {
+        let exact = PowerLaw::new(1.0, n, 0.2).unwrap();
+        let body = join(vec![power(n, 0.0, [-1.0, 0.0]), power(n, 0.0, [0.0, 1.0])]);
+        let (value, error, _) = peak_of(body, exact.load(1.0));
+        let missed = exact.pressure(0.0, 1.0) / value - 1.0;
+        println!("{n}: {missed:.2e}, said to be {:.2e}", error / value);
+        assert!(missed.abs() <= (error / value).max(1e-12) && error <= most * value, "{error:e}");
     }
 }
 

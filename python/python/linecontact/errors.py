@@ -346,7 +346,8 @@ class LayerTooThinError(InputError):
     Attributes
     ----------
     ratio : float
-        Half-width by thickness; by half the distance of the nearest singularity of a kernel.
+        Half-width by thickness, to about a tenth; by half the distance of the nearest singularity
+        of a kernel.
     limit : float
         Largest ratio that is solved.
     """
@@ -1076,7 +1077,8 @@ class PullOffError(SolveError):
     load : float
         Load per unit length asked for.
     least : float
-        The least load under which a contact was found.
+        The least load under which a contact was found: less than about a thousandth more, and the
+        bodies come apart.
     """
 
     load: float

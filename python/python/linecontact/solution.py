@@ -958,9 +958,7 @@ class Solution:
         )
 
     def __str__(self) -> str:
-        if self.contact.has_modulus:
-            return str(self._found)
-        return f"{self._found}\nκ is 1, as no modulus and no materials were given"
+        return str(self._found)
 
     def __repr__(self) -> str:
         if self.is_apart:

@@ -90,12 +90,21 @@ pub(super) struct Rounding<T> {
     pub kink: T,
 }
 
+impl<T: Real> Rounding<T> {
+    /// Returns the thresholds where two series with these errors meet.
+    pub fn between(self, [left, right]: [T; 2]) -> Self {
+        Self { kink: self.kink + T::of(64.0) * left.max(right), ..self }
+    }
+}
+
 /// Difference of the series of two neighbouring panels, over the contact.
 #[derive(Clone)]
 struct Change<T> {
     breakpoint: Breakpoint<T>,
     series: Coeffs<T>,
     terms: usize,
+    /// Errors of both.
+    errors: [T; 2],
 }
 
 impl<T: Real> HilbertTransform<T> {
@@ -124,9 +133,7 @@ impl<T: Real> HilbertTransform<T> {
     ) {
         self.on = on;
         let panels = within(panels, on);
-        let error = panels.iter().fold(T::zero(), |max, panel| max.max(panel.error));
-        let rounding = T::epsilon().sqrt().max(T::of(64.0) * tolerance);
-        let kink = size * rounding + T::of(64.0) * error;
+        let kink = size * T::epsilon().sqrt().max(T::of(64.0) * tolerance);
         self.rounding = Rounding { slope: T::of(16.0) * T::epsilon() * size, kink };
         self.is_far = panels.len() > MAX_LOGARITHMS
             || !(self.reexpanded(panels, over, on) || self.merged(panels, on));
@@ -150,21 +157,22 @@ impl<T: Real> HilbertTransform<T> {
             self.set_whole(&series[..*terms], on);
             return true;
         }
-        let mut before = ([zero; MAX_SIZE], 0);
+        let mut before = ([zero; MAX_SIZE], 0, zero);
         let every = reexpanded(panels, on, |span| {
             let PanelAngles { panel, series, terms, integrals, .. } = span;
             if !span.is_first {
-                let (last, last_terms) = before;
+                let (last, last_terms, error) = before;
                 self.changes.push(Change {
                     breakpoint: Breakpoint::new(panel, span.start),
                     series: std::array::from_fn(|k| series[k] - last[k]),
                     terms: last_terms.max(*terms),
+                    errors: [error, panel.error],
                 });
             }
             self.terms = self.terms.max(terms - 1);
             let smooth = &mut self.smooth;
             by_size!(size_for(*terms), N => add_smooth::<N, T>(smooth, series, integrals));
-            before = (*series, *terms);
+            before = (*series, *terms, panel.error);
         });
         let share = T::one() / on.half_width();
         self.smooth = self.smooth.map(|coefficient| coefficient * share);
@@ -221,9 +229,10 @@ impl<T: Real> HilbertTransform<T> {
             return sum;
         }
         let roots = [edges.left, edges.right].map(|side| side.map(|x| (x * share).sqrt()));
-        for Change { breakpoint, series, terms } in &self.changes {
+        for Change { breakpoint, series, terms, errors } in &self.changes {
             let change = values(&series[..*terms], &z);
-            let logs = breakpoint.logarithms(change, x, &roots, self.on, self.rounding);
+            let rounding = self.rounding.between(*errors);
+            let logs = breakpoint.logarithms(change, x, &roots, self.on, rounding);
             for i in 0..BATCH {
                 sum[i] += logs[i];
             }
@@ -276,7 +285,7 @@ impl<T: Real> HilbertTransform<T> {
             return T::zero();
         }
         let jump = (right.at_ends()[0] - left.at_ends()[1]).abs();
-        if jump > self.rounding.kink {
+        if jump > self.rounding.between([left.error, right.error]).kink {
             return T::zero();
         }
         let distance = if distance.is_zero() { close } else { distance };

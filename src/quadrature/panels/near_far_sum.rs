@@ -125,6 +125,8 @@ impl<T: Real> NearFarSum<T> {
             if number > 0 && (value.is_some() || before.is_some()) {
                 let change = value.unwrap_or(zero) - before.unwrap_or(zero);
                 let breakpoint = &self.parts[number].breakpoint;
+                let errors = [number - 1, number].map(|i| self.parts[i].panel.error);
+                let rounding = rounding.between(errors);
                 log.add(breakpoint.logarithms([change], &[x], &[[cos], [sin]], on, rounding)[0]);
             }
             before = value;

@@ -361,7 +361,8 @@ impl<T: Real> PanelSet<T> {
                 let level = trial.level + 1;
                 let Candidate { wave, hides, .. } = trial;
                 let sparse = trial.sparse || !self.is_loose() && trial.has_kink();
-                let half = |x| Candidate { level, wave, hides, sparse, ..Candidate::new(x) };
+                let rose = [trial.rise, trial.rose[0]];
+                let half = |x| Candidate { level, wave, hides, sparse, rose, ..Candidate::new(x) };
                 let [mut one, mut other] = [half([left, middle]), half([middle, right])];
                 self.try_out(gap, &mut one)?;
                 self.try_out(gap, &mut other)?;
@@ -419,6 +420,9 @@ impl<T: Real> PanelSet<T> {
                     trial = Candidate { panel: before, level, split: true, ..trial };
                     continue;
                 }
+            }
+            if trial.is_given_up(self.tolerance * self.size) {
+                trial.own_up();
             }
             if let Some(mut before) = before {
                 self.own_up_to([&mut before, &mut trial.panel], trial.allowed);

@@ -2,6 +2,7 @@
 
 use super::{RIGID, coated, half_plane, layer, parabola};
 use crate::common::{Profile, graph};
+use linecontact::profile::Ellipse;
 use linecontact::search::Brent;
 use linecontact::{
     Base, Contact, ContactError, Control, Edge, EdgePressure, EvaluationError, Flat, InputError,
@@ -77,6 +78,37 @@ fn impossible_layers_are_refused() {
             assert!(ratio > 100.0 && ratio < 2000.0 && limit == 100.0);
         }
         other => panic!("{other}"),
+    }
+}
+
+/// The contact is as wide as on half-planes of the base, or on springs, however soft the layer is:
+/// on bodies of any length it is told by a ratio, good to a tenth where it is known.
+#[test]
+fn however_thin_a_layer_is_it_is_told() {
+    let steel = half_plane(210e3, 0.3);
+    let cases = [
+        (5.0, 1e-12, steel, 1.05e11),
+        (5.0, 1e-3, steel, f64::NAN),
+        (5.0, 1e-3, Base::Bonded, f64::NAN),
+        // As cells tell it on shorter bodies.
+        (5.0, 3e-3, steel, 130.9),
+        (5.0, 3e-3, Base::Frictionless, 294.0),
+        (500.0, 1e-3, steel, f64::NAN),
+        (5000.0, 1e-6, steel, 1.05e5),
+        (5000.0, 1e-4, Base::Bonded, 743.0),
+    ];
+    for (modulus, thickness, base, known) in cases {
+        for end in [5.0, 9.9] {
+            let angle = f64::asin(end / 10.0);
+            let roller: Profile = Box::new(Ellipse::circle(10.0, [-angle, angle]).unwrap());
+            let material = Material::elastic(210e3, 0.3);
+            let scene = coated(&roller, material, layer(modulus, 0.49, thickness, base));
+            let error = scene.solve(Control::Load(100.0)).map(|_| ()).unwrap_err();
+            let ContactError::Input(InputError::LayerTooThin { ratio, .. }) = error else {
+                panic!("{modulus}, {thickness}, {base:?}, up to {end}: {error}");
+            };
+            assert!(ratio > 100.0 && !((ratio / known - 1.0).abs() > 0.11), "{ratio} {known}");
+        }
     }
 }
 

@@ -82,7 +82,8 @@ impl<T: Real> PanelSet<T> {
         if level == 0 {
             self.size = self.size.max(slope);
         }
-        let counts = level < LEVELS_OF_A_TIP;
+        let (counts, [from, to]) = (level < LEVELS_OF_A_TIP, panel.at_ends());
+        trial.rise = (to - from).abs().max(missed);
         let at_limit = if counts { self.missed_at_limits(panel, |_| T::zero()) } else { T::zero() };
         // Next to a singularity the slope may be larger, or noisier, than all that counts
         // elsewhere.
