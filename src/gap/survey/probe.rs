@@ -20,8 +20,8 @@ const PROBE_SPACING: f64 = 4.0;
 /// points.
 const LOAD_AHEAD: f64 = 1.05;
 
-/// Largest uncertainty of panels for which the foot of a bump is to be seen, as a share of F/κ. With
-/// points 4 w apart, 1 of 4 704 bumps and dents is missed; 13 are with 3e-4.
+/// Largest uncertainty of panels for which the foot of a bump is to be seen, as a share of F/κ.
+/// With points 4 w apart, 1 of 4 704 bumps and dents is missed; 13 are with 3e-4.
 const MAX_AT_FOOT: f64 = 1e-4;
 
 /// Largest uncertainty of panels next to a contact, and largest distance of points from them, as a

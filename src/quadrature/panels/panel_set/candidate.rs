@@ -75,8 +75,8 @@ impl<T: Real> Candidate<T> {
     /// root, or is a jump.
     pub fn own_up(&mut self) {
         let [last, before] = [self.rise / self.rose[0], self.rose[0] / self.rose[1]];
-        // Next to an upright end the rise grows by 1.41 each time, and the coefficients tell enough,
-        // too; a jump stays, with some of the slope beside it.
+        // Next to an upright end the rise grows by 1.41 each time, and the coefficients tell
+        // enough, too; a jump stays, with some of the slope beside it.
         if last.min(before) > T::of(2.0).powf(T::of(0.25)) {
             return;
         }
