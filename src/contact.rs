@@ -344,8 +344,8 @@ impl<'b, T: Real> Contact<'b, T> {
     /// this length from end to end, or of this width at half its height.
     ///
     /// By default the solve sees Gaussian bumps and dents whose width at half their height is at
-    /// least 2 % of the contact, provided that they change the peak pressure by 1 %; outside the
-    /// contacts it samples at most 1024 points for one load. With a resolution, samples are less
+    /// least 2 % of the contact, in it or up to a half-width beside, provided that they change the
+    /// peak pressure by 1 %; outside the contacts it samples at most 1024 points for one load. With a resolution, samples are less
     /// than half the resolution apart all over the bodies, and no further apart than by default in
     /// the contacts and as far as the load reaches. So at least two of them lie in a feature of
     /// that length. In a contact a feature is seen if it changes the slope at one of them by more

@@ -204,10 +204,8 @@ fn known_scenes() -> Vec<Scene> {
 #[test]
 fn no_narrow_feature_in_or_beside_a_contact_is_missed() {
     let scene = |seed| (format!("{seed}"), Scene::new(&mut Dice::new(seed), seed % 2 == 1));
-    // With SCENES: of the first 720 ten are wrong as yet. In seven the foot of the bump is fainter
-    // than the doubt of its panel, between points 4.5 widths apart; three are out of the reach of
-    // the load.
-    let random = scenes(0).map(scene);
+    // As yet seed 1549 is missed, of the first 6 000: between nodes 4.3 widths apart.
+    let random = scenes(100).map(scene);
     let known = known_scenes().into_iter().enumerate();
     let known = known.map(|(i, scene)| (format!("known {i}"), scene));
     none_is_missed(known.chain(random), false);
