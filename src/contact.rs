@@ -345,11 +345,12 @@ impl<'b, T: Real> Contact<'b, T> {
     ///
     /// By default the solve sees Gaussian bumps and dents whose width at half their height is at
     /// least 2 % of the contact, in it or up to a half-width beside, provided that they change the
-    /// peak pressure by 1 %; outside the contacts it samples at most 1024 points for one load. With a resolution, samples are less
-    /// than half the resolution apart all over the bodies, and no further apart than by default in
-    /// the contacts and as far as the load reaches. So at least two of them lie in a feature of
-    /// that length. In a contact a feature is seen if it changes the slope at one of them by more
-    /// than the uncertainty of the samples; outside, if it changes the height by 1e-7 F/κ or more.
+    /// peak pressure by 1 %; outside the contacts it samples at most 1024 points for one load. With
+    /// a resolution, samples are less than half the resolution apart all over the bodies, and no
+    /// further apart than by default in the contacts and as far as the load reaches. So at least
+    /// two of them lie in a feature of that length. In a contact a feature is seen if it changes
+    /// the slope at one of them by more than the uncertainty of the samples; outside, if it changes
+    /// the height by 1e-7 F/κ or more.
     ///
     /// The number of evaluations is proportional to the length of the bodies over the resolution
     /// ([`Cost::heights`]). Of bodies that would take more than a million,
