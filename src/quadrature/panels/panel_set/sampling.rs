@@ -83,7 +83,9 @@ impl<T: Real> PanelSet<T> {
             self.size = self.size.max(slope);
         }
         let (counts, [from, to]) = (level < LEVELS_OF_A_TIP, panel.at_ends());
-        trial.rise = (to - from).abs().max(missed);
+        // Of an upright end there is no slope to be met.
+        let is_upright = T::epsilon().sqrt() * missed > self.size;
+        trial.rise = (to - from).abs().max(if is_upright { T::zero() } else { missed });
         let at_limit = if counts { self.missed_at_limits(panel, |_| T::zero()) } else { T::zero() };
         // Next to a singularity the slope may be larger, or noisier, than all that counts
         // elsewhere.
