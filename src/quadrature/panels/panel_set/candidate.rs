@@ -74,14 +74,9 @@ impl<T: Real> Candidate<T> {
     /// Raises the error of a panel that is too short to be halved: what is left on it rises like a
     /// root, or is a jump.
     pub fn own_up(&mut self) {
-        let [last, before] = [self.rise / self.rose[0], self.rose[0] / self.rose[1]];
-        // Next to an upright end the rise grows by 1.41 each time, and the coefficients tell
-        // enough, too; a jump stays, with some of the slope beside it.
-        if last.min(before) > T::of(2.0).powf(T::of(0.25)) {
-            return;
-        }
         // One halving may have cut next to the corner.
-        let falls = (T::one() - last.max(before)).max(T::one() / T::count(MAX_AT_JUMP));
+        let left = (self.rise / self.rose[0]).max(self.rose[0] / self.rose[1]);
+        let falls = (T::one() - left).max(T::one() / T::count(MAX_AT_JUMP));
         let share = T::of(BY_FALL) * (falls.recip() - T::of(FALL_OF_A_SQUARE_ROOT.recip()));
         self.panel.error = self.panel.error.max(share * self.rise);
     }
