@@ -498,6 +498,7 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
         for i, x in enumerate(["-4,000.000", "-4 000.000", "-4'000.000", "-4.000,000", "−4.0*", "-4.0 um"])
     ),
     ("flag.csv", b"-4\t-3.5*\n-3\t1\n-2\t1\n", {}, {"line": 1}, "and '-3.5[*]' look like data"),
+    ("quoted.csv", b'x (mm),z (um),flag\n0.0,"-1,400.0",OK\n1.0,"-1,300.0",OK\n', {}, {}, "no line has two numbers"),
     ("late.csv", b"0;1;OK\n1;2;OK\n1,000.0;3;OK\nend\n", {"columns": (1, 2)}, {"line": 3}, "'3' look like data"),
     ("score.csv", b"0;1\n1;1_000\n", {}, {"line": 2}, "are no two numbers"),
     ("infinite.csv", b"0;1\n1;inf\n2;3\n", {}, {"line": 2}, "infinite"),

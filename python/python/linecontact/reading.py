@@ -7,6 +7,7 @@ nine other packages, is under the GPL and reads no profiles from X3P; sdfio and 
 
 from __future__ import annotations
 
+import csv
 import re
 import warnings
 from collections.abc import Sequence
@@ -380,7 +381,10 @@ def _decoded(name: str, data: bytes) -> str:
 
 
 def _cells(line: str, delimiter: str | None) -> list[str]:
-    return [cell.strip('" \t') for cell in _REMARK.sub("", line).split(delimiter)] or [""]
+    line = _REMARK.sub("", line)
+    # A comma between quotes is part of a cell.
+    parts = next(csv.reader([line]), []) if delimiter == "," and '"' in line else line.split(delimiter)
+    return [cell.strip('" \t') for cell in parts] or [""]
 
 
 def _number(cell: str) -> float | None:
