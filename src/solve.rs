@@ -27,7 +27,7 @@ mod tests;
 mod topology;
 
 use crate::contact::{Contact, Control, EdgePressure, check, check_positive, check_within, edges};
-use crate::gap::{Asked, Cost, Gap};
+use crate::gap::{Cost, Gap};
 use crate::quadrature::{Engine, complete};
 use crate::solution::{ContactState, Outcome, Report, Solution, Solved, Start, certify};
 use crate::{ContactError, Edge, Ends, Fallible, InputError, Interval, Real, SolveError};
@@ -211,7 +211,7 @@ fn find_under<T: Real>(
             let (kappa, edges) = (contact.kappa, contact.checked_edges()?);
             let conditions = Conditions { kappa, edges, given: Given::HalfWidth(half_width) };
             match topology::find(contact, conditions, work) {
-                Err(error) if may_have_several(contact, &error, work)? => {
+                Err(error) if may_have_several(contact, &error, work) => {
                     by_load::find(contact, &HalfWidth, ("half-width", half_width), work)
                 }
                 found => found,
@@ -250,26 +250,22 @@ fn settle<T: Real>(search: &mut Search<'_, '_, '_, T>) -> Fallible<T, ContactSta
     Err(search.not_found())
 }
 
-/// Tells whether a half-width may belong to several contacts, by the error of the search for one.
+/// Tells whether a half-width may belong to several contacts, by the error of the search for one:
+/// several may be wider.
 fn may_have_several<T: Real>(
     contact: &Contact<'_, T>,
     error: &ContactError<T>,
-    work: &mut Work<'_, T>,
-) -> Fallible<T, bool> {
+    work: &Work<'_, T>,
+) -> bool {
     use SolveError::{HalfWidthTooLarge, NoEquilibrium, Overlap, Tension};
-    if contact.single_interval || !work.may_find_several(contact) {
-        return Ok(false);
-    }
-    let ContactError::Solve(ref failed) = *error else { return Ok(false) };
-    match *failed {
-        NoEquilibrium { .. } | Overlap { .. } | Tension { .. } => Ok(true),
-        // Several contacts may be wider.
-        HalfWidthTooLarge { wanted, .. } if !contact.gap.is_convex() => {
-            let look = work.workspace.look(&contact.gap, Asked::HalfWidth(wanted), work.cost)?;
-            Ok(!look.bulges())
-        }
-        _ => Ok(false),
-    }
+    let ContactError::Solve(
+        NoEquilibrium { .. } | Overlap { .. } | Tension { .. } | HalfWidthTooLarge { .. },
+    ) = error
+    else {
+        return false;
+    };
+    let may_be_one = contact.single_interval || contact.gap.is_convex();
+    !may_be_one && work.may_find_several(contact)
 }
 
 /// Finds the contact with edges by the paper's Eq. (6), under a given load.

@@ -116,10 +116,8 @@ impl<T: Real> Pinned<'_, T> {
     /// Returns the balanced contact, and the side of the end that it reaches.
     fn largest_contact(&mut self, whole: Interval<T>) -> Option<(Interval<T>, Side)> {
         let Interval { left, right } = whole;
-        match self.equations.limits() {
-            Ends { left: Some(_), .. } => return Some((whole, Side::Right)),
-            Ends { right: Some(_), .. } => return Some((whole, Side::Left)),
-            Ends { left: None, right: None } => {}
+        if let Some(side) = self.equations.limits().only_free() {
+            return Some((whole, side));
         }
         let at_whole = self.rough_shift(whole)?;
         let side = if at_whole > T::zero() { Side::Right } else { Side::Left };

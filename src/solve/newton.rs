@@ -75,6 +75,11 @@ impl<T: Real> Progress<T> {
         }
     }
 
+    /// Tells whether a step is no shorter than the one before.
+    pub fn has_grown_to(&self, size: T) -> bool {
+        self.before.is_some_and(|[one, other]| size >= one + other)
+    }
+
     /// Records the sizes of a step.
     pub fn note(&mut self, sizes: [T; 2]) {
         self.before = Some(sizes).filter(|&[one, other]| one + other <= T::of(MAX_PREDICTING_STEP));

@@ -97,6 +97,8 @@ pub(in super::super) struct NewtonSeveral<T> {
     /// Residues at the poles of the quadrature.
     residues: Vec<T>,
     progress: Progress<T>,
+    /// All unknowns before the last step, and before this one.
+    before: [Vec<T>; 2],
     /// Flag: the limits are not yet worth all panels.
     is_trial: bool,
     /// Number of steps in a row in which each width was cut, and an end was passed.
@@ -118,29 +120,25 @@ pub(in super::super) struct NewtonSeveral<T> {
 
 impl<T: Real> NewtonSeveral<T> {
     pub fn new() -> Self {
-        let (at_end, progress, passed) = (None, Progress::new(), None);
-        let (held, residues) = (Vec::new(), Vec::new());
-        let [errors, step, moves, unit, open] = std::array::from_fn(|_| Vec::new());
-        let system = System::new();
-        let (on, order, tilt, load) = (Vec::new(), Vec::new(), T::zero(), T::zero());
-        let (cut, widths) = (Vec::new(), Vec::new());
+        let [errors, residues, step, moves, unit, open] = Default::default();
         Self {
-            tilt,
-            load,
-            on,
+            tilt: T::zero(),
+            load: T::zero(),
+            on: Vec::new(),
             errors,
-            held,
-            at_end,
+            held: Vec::new(),
+            at_end: None,
             residues,
-            progress,
+            progress: Progress::new(),
+            before: Default::default(),
             is_trial: true,
-            cut,
-            passed,
-            widths,
-            system,
+            cut: Vec::new(),
+            passed: None,
+            widths: Vec::new(),
+            system: System::new(),
             step,
             moves,
-            order,
+            order: Vec::new(),
             unit,
             open,
         }
@@ -171,6 +169,7 @@ impl<T: Real> NewtonSeveral<T> {
             if !self.step.iter().all(|step| step.is_finite()) {
                 break;
             }
+            self.keep();
             self.turn(&mut turned, conditions.besides);
             let size = self.size();
             if self.limit(conditions)? {
@@ -194,8 +193,50 @@ impl<T: Real> NewtonSeveral<T> {
                 several.press();
                 return Ok(());
             }
+            // At a kink the slope of the equations jumps: whole steps may lead from one side of it to
+            // the other for ever.
+            if self.progress.has_grown_to(size) && self.turns_back() {
+                self.go_back();
+                turned = conditions.gap.tilted(self.tilt);
+            } else {
+                self.before.swap(0, 1);
+                self.progress.note([size, T::zero()]);
+            }
         }
         Err(Fault::Failed)
+    }
+
+    /// Keeps the unknowns before a step.
+    fn keep(&mut self) {
+        let mut here = std::mem::take(&mut self.before[1]);
+        here.clear();
+        here.extend(self.unknowns().map(|x| *x));
+        self.before[1] = here;
+    }
+
+    /// Tells whether the limits go back against the step before.
+    fn turns_back(&self) -> bool {
+        let [last, here] = &self.before;
+        let now = self.on.iter().flat_map(|on| [on.left, on.right]);
+        let both = now.zip(last.iter().zip(here));
+        let along =
+            |sum: T, (now, (&last, &here)): (T, (&T, &T))| sum + (now - here) * (here - last);
+        both.fold(T::zero(), along) < T::zero()
+    }
+
+    /// Goes to the middle of the last step, from which the next one would be longer.
+    fn go_back(&mut self) {
+        let before = std::mem::take(&mut self.before);
+        for (x, (&from, &to)) in self.unknowns().zip(before[0].iter().zip(&before[1])) {
+            *x = T::of(0.5) * from + T::of(0.5) * to;
+        }
+        self.before = before;
+    }
+
+    /// Lists the limits, and the other unknowns.
+    fn unknowns(&mut self) -> impl Iterator<Item = &mut T> {
+        let limits = self.on.iter_mut().flat_map(|Interval { left, right }| [left, right]);
+        limits.chain(&mut self.residues).chain([&mut self.tilt, &mut self.load])
     }
 
     /// Assembles the equations of the contacts at hand, and solves them for the step.
@@ -309,16 +350,14 @@ impl<T: Real> NewtonSeveral<T> {
         if is_done || is_stalled {
             self.estimate();
         }
-        if is_done || is_stalled && (is_short || self.is_within(self.errors.iter().copied())) {
-            if judged.is_stalled {
-                for (i, step) in self.moves.iter().enumerate() {
-                    self.errors[i] += step.abs() / self.on[i / 2].half_width();
-                }
+        let ends =
+            is_done || is_stalled && (is_short || self.is_within(self.errors.iter().copied()));
+        if ends && judged.is_stalled {
+            for (i, step) in self.moves.iter().enumerate() {
+                self.errors[i] += step.abs() / self.on[i / 2].half_width();
             }
-            return true;
         }
-        self.progress.note([size, T::zero()]);
-        false
+        ends
     }
 
     /// Returns the interval from the first of the contacts to the last.

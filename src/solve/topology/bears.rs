@@ -39,13 +39,8 @@ const LEAST_LEFT: f64 = 0.01;
 /// Last step of the load, as a share of it, in units of rounding.
 const LAST_STEP: f64 = 1e4;
 
-/// Part of a load that the bodies bear.
-enum Borne<T: Real> {
-    /// All of the load, in these contacts.
-    All(ContactState<T>),
-    /// Less than the load, in contacts that reach an end.
-    UpTo(Capacity<T>),
-}
+/// Contacts under all of a load, or those under the part of it that the bodies bear.
+type Borne<T> = Result<ContactState<T>, Capacity<T>>;
 
 /// Returns the widest contacts that just reach a corner, if it holds the contacts under a given
 /// load.
@@ -72,21 +67,23 @@ impl<T: Real> Search<'_, '_, '_, T> {
         self.check_parallel()?;
         // Of a single interval, no cells show that bodies that turn are too short.
         let is_blind = self.contact.single_interval && self.turns();
-        let may_run_out = self.runs_out.is_some() || is_blind && is_nowhere(&error);
+        let lifts_off = matches!(error, ContactError::Solve(SolveError::LiftsOff { .. }));
+        let is_nowhere = error.may_be_several() && !lifts_off;
+        let may_run_out = self.runs_out.is_some() || is_blind && is_nowhere;
         if !may_run_out || self.end.is_some() {
             return Err(error);
         }
         let (ends, conditions) = (self.contact.ends(), self.conditions);
         let borne = match self.end_touched_first() {
-            Some(side) => Some(Borne::UpTo(Capacity::nothing(ends[side]))),
+            Some(side) => Some(Err(Capacity::nothing(ends[side]))),
             None => self.under_some_load(&conditions).or_else(|| {
                 let side = self.end_that_supports(conditions.at()?)?;
-                Some(Borne::UpTo(Capacity::nothing(ends[side])))
+                Some(Err(Capacity::nothing(ends[side])))
             }),
         };
         let error = match borne {
-            Some(Borne::All(found)) => return Ok(found),
-            Some(Borne::UpTo(widest)) => widest.too_short(conditions.load()),
+            Some(Ok(found)) => return Ok(found),
+            Some(Err(widest)) => widest.too_short(conditions.load()),
             None => error,
         };
         Err(self.nearest().unwrap_or(error))
@@ -134,7 +131,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         self.work.workspace.keep(&[]);
         let exact = high.and_then(|(load, side)| self.up_to_end(&conditions.under(load), side));
         let exact = exact.filter(|exact| exact.load < conditions.load());
-        exact.map(Borne::UpTo).or_else(|| self.until_closed(conditions, low))
+        exact.map(Err).or_else(|| self.until_closed(conditions, low))
     }
 
     /// Returns an end of the bodies that is one of the two supports of a light load acting at `at`.
@@ -205,7 +202,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 continue;
             };
             if next.load() >= asked {
-                return Some(Borne::All(found));
+                return Some(Ok(found));
             }
             let further = secant(gaps.left, closer.left).min(secant(gaps.right, closer.right));
             step = further * (next.load() - load);
@@ -217,11 +214,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         let (found, gaps) = self.gaps_at_ends(&conditions.under(load))?;
         // If the gap stays open, the search has failed for another reason.
-        if closes(load, gaps) {
-            Some(Borne::UpTo(self.capacity(&found, lower(gaps))?))
-        } else {
-            None
-        }
+        if closes(load, gaps) { Some(Err(self.capacity(&found, lower(gaps))?)) } else { None }
     }
 
     /// Finds the contacts under a load, and the gap left at each end of the bodies; infinite at a
@@ -300,12 +293,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         Some((low, high))
     }
-}
-
-/// Tells whether a search has ended with no contact at all.
-fn is_nowhere<T: Real>(error: &ContactError<T>) -> bool {
-    let lifts_off = matches!(error, ContactError::Solve(SolveError::LiftsOff { .. }));
-    error.may_be_several() && !lifts_off
 }
 
 /// Returns the side at which the gap is lower.

@@ -81,3 +81,26 @@ fn a_lug_beside_a_land_parts_from_it() {
     println!("{judged} judged");
     assert!(judged > 0 && faults.is_empty(), "{}: {}", faults.len(), faults.join("\n"));
 }
+
+/// A limit that has just reached a corner at which the slope rises by 0.02 only: whole steps of
+/// Newton's method lead from one side of it to the other, which left 28 of 400 loads without a
+/// solution.
+#[test]
+fn a_limit_at_a_weak_corner_is_found() {
+    let right = Outline::from([0.0, 0.0]).arc(14.403_510_136_170_25, 0.093_210_783_080_597_44);
+    let right = right.corner(-0.5).fillet(0.003_213_625_642_476_981);
+    let right = right.arc(5.385_349_648_496_586, 0.051_324_132_182_147_39).corner(0.05);
+    let left = Outline::from([0.0, 0.0]).arc(6.323_983_945_854_503, 0.5).corner(0.1).line(0.5);
+    let body = right.arc(5.0, 0.8).left(left).build().unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(1.0);
+    let mut before = -0.4;
+    for i in 0..40 {
+        let load = 0.0392 + 1e-5 * f64::from(i);
+        let solution = contact.solve(Control::Load(load)).unwrap_or_else(|error| {
+            panic!("{load}: {error}");
+        });
+        let limit = solution.hull().left;
+        assert!(limit < before && solution.limits_error() < Some(1e-8), "{load}: {solution}");
+        before = limit;
+    }
+}
