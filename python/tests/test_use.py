@@ -13,6 +13,7 @@ import xml.dom.minidom
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -550,6 +551,27 @@ def test_pictures() -> None:
                 drawn = np.asarray(line.get_ydata(), dtype=float)
                 assert np.isfinite(drawn).sum() > 10
         assert shear.yaxis_inverted()
+
+
+def test_pictures_are_those_of_pyplot(tmp_path: Path) -> None:
+    from matplotlib import pyplot
+    from matplotlib.figure import Figure
+
+    pyplot.close("all")
+    solution = lc.solve(FLAT, BODY, kappa=1.0, load=0.01)
+    figure = solution.plot()
+    assert pyplot.gcf() is figure and pyplot.get_fignums() == [figure.number]
+    pyplot.savefig(tmp_path / "plot.png")
+    assert np.ptp(pyplot.imread(tmp_path / "plot.png")) > 0.5
+    # The next picture has a figure of its own, but for an empty one.
+    assert lc.Contact(FLAT, BODY).solve(load=0.0).plot() is not figure and len(figure.axes) == 4
+    empty = pyplot.figure(figsize=(3.0, 4.0))
+    slip = solution.partial_slip(friction=0.4, force=0.001)
+    assert slip.plot() is empty and len(empty.axes) == 4
+    assert len(pyplot.get_fignums()) == 3
+    own = Figure()
+    assert solution.plot(figure=own) is own and len(own.axes) == 4 and len(pyplot.get_fignums()) == 3
+    pyplot.close("all")
 
 
 def test_the_shear_of_each_body_with_layers() -> None:

@@ -182,10 +182,10 @@ class PartialSlip:
         """
         return Extremum(*self._found.max_tension(as_side(body, True)))
 
-    def plot(self, units: Sequence[str] = ("", "")) -> Figure:
+    def plot(self, units: Sequence[str] = ("", ""), figure: Figure | None = None) -> Figure:
         """Draws both bodies before loading, pressure and traction, and the shear in the lower body.
 
-        It is the picture of `Solution.plot`, which describes `units`. The shear in the upper body
+        It is the picture of `Solution.plot`, which describes the arguments. The shear in the upper body
         is that of the opposite force and tension.
 
         Examples
@@ -198,7 +198,7 @@ class PartialSlip:
         """
         from .drawing import plot
 
-        return plot(self.normal, units, self)
+        return plot(self.normal, units, figure, self)
 
 
 def slipped_again(contact: Contact, prescribed: Prescribed, acting: tuple[float, float, float]) -> PartialSlip:

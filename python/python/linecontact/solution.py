@@ -975,7 +975,7 @@ class Solution:
 
         return svg(self)
 
-    def plot(self, units: Sequence[str] = ("", "")) -> Figure:
+    def plot(self, units: Sequence[str] = ("", ""), figure: Figure | None = None) -> Figure:
         """Draws both bodies before loading, the pressure, and the shear below it.
 
         It needs matplotlib.
@@ -985,6 +985,9 @@ class Solution:
         units : (str, str), optional
             Names of the units of lengths and pressures, and of loads if there is a third, such as
             ("mm", "MPa", "N/mm"): shown at the axes, and in the title.
+        figure : matplotlib.figure.Figure, optional
+            Figure to draw in. Default: the current one of pyplot if it is empty, or else a new one,
+            which is then current, for `plt.savefig` and `plt.show`.
 
         Returns
         -------
@@ -999,7 +1002,7 @@ class Solution:
         """
         from .drawing import plot
 
-        return plot(self, units)
+        return plot(self, units, figure)
 
 
 def _solved_again(contact: Contact, prescribed: Prescribed) -> Solution:
