@@ -737,6 +737,26 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     (lambda: ANY.Curve((-1, 1), lambda k: None), TypeError, ("returned nothing:", "must return four")),
     (lambda: anything(contact()).solve(load="500"), TypeError, ("load is '500'", "give one number")),
     (lambda: anything(contact()).solve(load=[1.0, 2.0]), TypeError, ("load is [1.0, 2.0]", "give one number")),
+    *(
+        (call, TypeError, (f"{name} is True: give one number",))
+        for name, call in {
+            "load": lambda: contact().solve(load=True),
+            "radius": lambda: ANY.Parabola(True, (-1, 1)),
+            "domain": lambda: ANY.Parabola(10, (-1, True)),
+            "youngs_modulus": lambda: lc.Material(True, 0.3),
+            "x": lambda: lc.Edge.fixed(True),
+            "depth": lambda: lc.Reference.depth(True),
+            "at_a": lambda: contact(edge_pressure=lc.EdgePressure(True, 0, 1, 1, 1, 1)),
+            "tolerance": lambda: contact(quadrature=lc.Panels(True)),
+            "segments": lambda: contact(quadrature=lc.Midpoint(True)),
+            "absolute": lambda: contact(limit_search=lc.Search("brent", True)),
+            "peak_pressure": lambda: lc.gradient(contact(), "load", "kappa", peak_pressure=True),
+        }.items()
+    ),
+    (lambda: contact().solve(load=anything(np.bool_(False))), TypeError, ("load is ", "False", ": give one number")),
+    (lambda: ANY.sweep(contact(), load=[True, False]), TypeError, ("load is [True, False]: give numbers",)),
+    (lambda: solved().pressure(True), TypeError, ("x is True: give numbers",)),
+    (lambda: ANY.Spline([[False, False]] * 5), TypeError, ("give numbers",)),
     (lambda: ANY.sweep(contact(), load="500"), TypeError, ("load is '500'", "give numbers")),
     (lambda: ANY.sweep(contact(), load=["1", "2"]), TypeError, ("load is ['1', '2']", "give numbers")),
     (
