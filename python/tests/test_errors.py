@@ -726,8 +726,10 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     (
         lambda: ANY.Curve((-1, 1), lambda k: (k, k[:1].repeat(3), k, k)),
         ValueError,
-        ("returned y of shape (3,) for 2 values of k", "as many numbers, or one for all"),
+        ("returned y of shape (3,) for 2 values of k", "as many numbers, or a plain number for all"),
     ),
+    (lambda: ANY.Curve((-1, 1), lambda k: (k, k**2, 1, k[:1])), ValueError, ("returned dy of shape (1,) for 2 values of k",)),
+    (lambda: ANY.Curve((-1, 1), lambda k: (k, [0], 1, k)), ValueError, ("returned y of shape (1,) for 2 values of k",)),
     (
         lambda: ANY.Curve((-1, 1), lambda k: (k, k, "steep", k)),
         ValueError,

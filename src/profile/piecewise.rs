@@ -255,9 +255,9 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> 
 #[non_exhaustive]
 pub enum PiecewiseError<T: Real> {
     /// A piece is faulty by itself.
-    #[error("piece {piece} (from 0, left to right): {source}")]
+    #[error("piece {} from the left: {source}", piece + 1)]
     InPiece {
-        /// Index of the piece.
+        /// Index of the piece, from 0; the message counts from 1.
         piece: usize,
         /// Fault of the piece.
         source: ProfileError<T>,
@@ -281,9 +281,10 @@ pub enum PiecewiseError<T: Real> {
     NoPieces,
     /// Two neighbours do not meet: `x` between them belongs to neither.
     #[error(
-        "gap of {} between pieces {breakpoint} and {} (from 0, left to right): at x = {left} the one ends, at {right} \
+        "gap of {} between pieces {} and {} from the left: at x = {left} the one ends, at {right} \
          the other starts; close it, or join them by Piecewise::with_tolerance",
-        six(*right - *left), breakpoint + 1, left = apart(*left, &[*right]), right = apart(*right, &[*left])
+        six(*right - *left), breakpoint + 1, breakpoint + 2, left = apart(*left, &[*right]),
+        right = apart(*right, &[*left])
     )]
     Gap {
         /// Index of the breakpoint, 0 between the first two pieces.
@@ -296,9 +297,10 @@ pub enum PiecewiseError<T: Real> {
     /// Two neighbours overlap: `x` between them belongs to both. Pieces in the wrong order overlap
     /// too.
     #[error(
-        "overlap of {} between pieces {breakpoint} and {} (from 0, left to right): at x = {left} the one ends, at \
+        "overlap of {} between pieces {} and {} from the left: at x = {left} the one ends, at \
          {right} the other starts; give them from left to right, or join them by Piecewise::with_tolerance",
-        six(*left - *right), breakpoint + 1, left = apart(*left, &[*right]), right = apart(*right, &[*left])
+        six(*left - *right), breakpoint + 1, breakpoint + 2, left = apart(*left, &[*right]),
+        right = apart(*right, &[*left])
     )]
     Overlap {
         /// Index of the breakpoint, 0 between the first two pieces.
@@ -310,9 +312,9 @@ pub enum PiecewiseError<T: Real> {
     },
     /// Two neighbours meet at different heights.
     #[error(
-        "jump of {} between pieces {breakpoint} and {} (from 0, left to right), at x = {x}: Y = {left} on its left, \
+        "jump of {} between pieces {} and {} from the left, at x = {x}: Y = {left} on its left, \
          {right} on its right; move one of them, or join them by Piecewise::with_tolerance",
-        six(*right - *left), breakpoint + 1, x = six(*x), left = apart(*left, &[*right]),
+        six(*right - *left), breakpoint + 1, breakpoint + 2, x = six(*x), left = apart(*left, &[*right]),
         right = apart(*right, &[*left])
     )]
     Jump {

@@ -1617,7 +1617,7 @@ class PiecewiseInPieceError(InputError):
     Attributes
     ----------
     piece : int
-        Index of the piece.
+        Index of the piece, from 0; the message counts from 1.
     source : LineContactError
         Fault of the piece.
     """
