@@ -152,7 +152,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (
         lambda: lc.Piecewise([lc.Wedge((-1, 1), 1.0)]).flipped(),
         "PiecewiseInPieceError",
-        {"piece": 0, "source": "ProfileJoinedError", "source.pieces": 2},
+        {"piece": 1, "source": "ProfileJoinedError", "source.pieces": 2},
     ),
     (
         lambda: graph(lambda x: x**2, lambda x: x).check_derivatives(),
@@ -171,7 +171,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     ),
     (lambda: lc.Piecewise([]), "PiecewiseNoPiecesError", {}),
     (lambda: lc.Piecewise([BODY], tolerance=-1.0), "PiecewiseToleranceError", {"tolerance": -1.0}),
-    (two_jumps, "PiecewiseGapError", {"breakpoint": 0, "left": 0.0, "right": 0.5}),
+    (two_jumps, "PiecewiseGapError", {"breakpoint": 1, "left": 0.0, "right": 0.5}),
     (lambda: lc.Piecewise([BODY, BODY]), "PiecewiseOverlapError", {"left": 1.0, "right": -1.0}),
     (
         lambda: lc.Piecewise([lc.Line(0.0, (-1, 1)), lc.Line(1.0, (1, 2))]),
