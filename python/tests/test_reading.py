@@ -501,6 +501,21 @@ NO_X = LINES.replace("Xscale", "Yscale").encode()
 NO_COUNT = LINES.replace("= 401", "= 4e2").encode()
 MINUS = LINES.replace("= 401", "= -401").replace("= 3\r", "= -3\r").encode()
 ZERO = LINES.replace("0.0000000000000000e+00", "zero").encode()
+# Header, rows, arguments, line and number of columns, 0 where points and commas are mixed.
+THOUSANDS: list[tuple[str, str, dict[str, Any], int, int]] = [
+    ("x,z,flag", "0.0000,-85,000,000,1\n0.0001,-85,100,000,1\n", {"columns": (1, 2)}, 2, 5),
+    ("x,z,flag", "0.0000,-85,000,000,1\n0.0001,-85,100,000,1\n", {"columns": ("x", "z")}, 2, 5),
+    ("x [mm],z [nm]", "0.0,-85,000\n0.1,-85,100\n", {}, 2, 3),
+    ("Roller\na,b", "0.0,-85,000\n0.1,-85,100\n", {"columns": (1, 2)}, 3, 3),
+    ("x z flag", "0.0 -85 000 1\n0.1 -85 100 1\n", {"columns": (1, 2)}, 2, 4),
+    ("x,z,flag", "0.0,-850,OK\n0.1,-1,234,OK\n0.2,-850,OK\n", {"columns": (1, 2)}, 3, 4),
+    ("x,z,t,flag", "0.0,-850,20,OK\n0.1,-1,234,20,OK\n", {"columns": (1, 2)}, 3, 5),
+    ("x,z,flag", "0.0,-850,1\n0.1,-1,234,1\n", {"columns": (1, 2)}, 3, 4),
+    ("x;z", "0,0;1.234\n0,1;1.235\n", {}, 2, 0),
+    ("x;z;t", "0;1.234;0,5\n1;1.235;0,6\n", {"columns": (1, 2)}, 2, 0),
+    ("x\tz\tt", "0\t85,000\t0.5\n1\t85,100\t0.6\n", {"columns": (1, 2)}, 2, 0),
+    ("x,z", "0,1,0,2\n0,2,0,3\n", {"columns": (1, 2)}, 2, 4),
+]
 FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("empty.csv", b"", {}, {}, "no line has two numbers"),
     ("blank.csv", b"\n\n \r\n", {}, {}, "no line has two numbers"),
@@ -526,22 +541,7 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("quoted.csv", b'x (mm),z (um),flag\n0.0,"-1,400.0",OK\n1.0,"-1,300.0",OK\n', {}, {}, "no line has two numbers"),
     *(
         (f"thousands{i}.csv", f"{heads}\n{rows}".encode(), given, {"line": line}, (f"{count} columns.*" if count else "a comma: ") + "take out separators of th")
-        for i, (heads, rows, given, line, count) in enumerate(
-            [
-                ("x,z,flag", "0.0000,-85,000,000,1\n0.0001,-85,100,000,1\n", {"columns": (1, 2)}, 2, 5),
-                ("x,z,flag", "0.0000,-85,000,000,1\n0.0001,-85,100,000,1\n", {"columns": ("x", "z")}, 2, 5),
-                ("x [mm],z [nm]", "0.0,-85,000\n0.1,-85,100\n", {}, 2, 3),
-                ("Roller\na,b", "0.0,-85,000\n0.1,-85,100\n", {"columns": (1, 2)}, 3, 3),
-                ("x z flag", "0.0 -85 000 1\n0.1 -85 100 1\n", {"columns": (1, 2)}, 2, 4),
-                ("x,z,flag", "0.0,-850,OK\n0.1,-1,234,OK\n0.2,-850,OK\n", {"columns": (1, 2)}, 3, 4),
-                ("x,z,t,flag", "0.0,-850,20,OK\n0.1,-1,234,20,OK\n", {"columns": (1, 2)}, 3, 5),
-                ("x,z,flag", "0.0,-850,1\n0.1,-1,234,1\n", {"columns": (1, 2)}, 3, 4),
-                ("x;z", "0,0;1.234\n0,1;1.235\n", {}, 2, 0),
-                ("x;z;t", "0;1.234;0,5\n1;1.235;0,6\n", {"columns": (1, 2)}, 2, 0),
-                ("x\tz\tt", "0\t85,000\t0.5\n1\t85,100\t0.6\n", {"columns": (1, 2)}, 2, 0),
-                ("x,z", "0,1,0,2\n0,2,0,3\n", {"columns": (1, 2)}, 2, 4),
-            ]
-        )
+        for i, (heads, rows, given, line, count) in enumerate(THOUSANDS)
     ),
     ("late.csv", b"0;1;OK\n1;2;OK\n1,000.0;3;OK\nend\n", {"columns": (1, 2)}, {"line": 3}, "'3' look like data"),
     ("score.csv", b"0;1\n1;1_000\n", {}, {"line": 2}, "are no two numbers"),
