@@ -535,6 +535,18 @@ def test_complex_numbers_are_refused() -> None:
         lc.Curve((-1.0, 1.0), lambda k: (k, k**2 / 2 + 0.0j, 1.0, k))
 
 
+def test_the_place_of_a_symmetric_peak_is_zero() -> None:
+    """Places of largest values have half of the digits; what is below them is no place beside 0."""
+    body = lc.Ellipse.circle(10.0, (-1.0, 1.0))
+    for load in (100.0, 200.0, 300.0, 500.0, 700.0, 1000.0):
+        solution = lc.solve(FLAT, body, contact_modulus=115e3, load=load)
+        assert repr(solution.peak()).startswith("Peak(x=0.0, ")
+        assert solution.contacts()[0].peak == solution.peak()
+        assert solution.max_shear().x == 0.0 == solution.max_von_mises(0.3).x
+    off = lc.solve(FLAT, body.shifted(0.1, 0.0), contact_modulus=115e3, load=500.0)
+    assert math.isclose(off.peak().x, 0.1, abs_tol=1e-8) and off.peak().x != 0.1
+
+
 # Pictures.
 
 

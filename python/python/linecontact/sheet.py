@@ -13,7 +13,7 @@ from .below import Below, materials
 from .contact import Layer
 from .drawing import covered
 from .errors import HalfPlanesOnlyError, LineContactError, SingularError
-from .solution import Solution, StressPeak
+from .solution import ROUNDING, Solution, StressPeak, placed
 
 if TYPE_CHECKING:
     from .files import Scene
@@ -54,9 +54,6 @@ _TABLE = {
 
 # Number of columns of a sheet, and of each number of a table.
 _WIDTH, _CELL = 100, 10
-
-# Largest x that counts as 0, in half-widths: places of largest values have half of the digits.
-_ROUNDING = 1e-7
 
 # Relative error below which a sheet does not tell: digits that differ from machine to machine.
 _EXACT = 1e-12
@@ -142,11 +139,9 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
         for of in ("von_mises", "tresca"):
             numbers[f"safety_{of}"] = _safety(yield_stress, numbers[of])
     # Of bodies that are apart, places are known to the rounding of their x.
-    least = _EXACT * float(np.ptp(covered(solution))) if solution.is_apart else _ROUNDING * solution.half_width
-    for name in ("left", "right", "centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
+    least = _EXACT * float(np.ptp(covered(solution))) if solution.is_apart else ROUNDING * solution.half_width
+    for name in ("left", "right", "centre_of_pressure", "peak_x"):
         numbers[name] = 0.0 if abs(numbers[name]) < least else numbers[name]
-    for peaks in each.values():
-        peaks.update({words: peak._replace(x=0.0) for words, peak in peaks.items() if abs(peak.x) < least})
     return Row(control, solution, numbers, each, tuple(missing), None)
 
 
@@ -173,7 +168,7 @@ def largest_tresca(solution: Solution, of: Below) -> StressPeak:
             spread = np.ptp([*stress.principal(), stress.sigma_z(of.ratio or 0.0)], axis=0)
             row, column = np.unravel_index(np.argmax(spread), spread.shape)
             x, depth, reach = float(places[column]), float(depths[row]), 0.5 * reach
-        best.append(StressPeak(x, depth, float(spread[row, column])))
+        best.append(StressPeak(*placed(on.half_width, x, depth, float(spread[row, column]))))
     return max(best, key=lambda one: one.value)
 
 
