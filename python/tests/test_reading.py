@@ -179,6 +179,7 @@ def test_columns_that_no_header_names(tmp_path: Path) -> None:
         "Roller, left\n,x,z\n0,0,3\n1,1,4\n",
         "n,x,z\nmm,um\n0,0,3\n1,1,4\n",
         "n;x;z\n1.;0,0;3\n2.;1,0;4\n",
+        "n;x;z\nn.a.;0,0;3\n1.#IND;1,0;4\n",
         "of no name\n0 0 3\n1 1 4\n",
         "n,x,z,note\n0,0,3,\n1,1,4,dust, left\n",
         "n,x,z,note\n0,0,3,dust\n1,1,4,dust, left\n",

@@ -140,7 +140,7 @@ def named(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Resu
     return checked
 
 
-def each(of: Callable[[FloatArray], FloatArray], x: Any) -> Any:
+def each(of: Callable[[FloatArray], FloatArray], x: Any) -> float | FloatArray:
     """Evaluates a function at `x`: a number for a number, an array for an array."""
     places = as_numbers(x, "x")
     values = of(places.reshape(-1))

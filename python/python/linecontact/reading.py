@@ -313,8 +313,10 @@ def _text(
         chosen = [cells[x - 1], cells[z - 1]]
         if row[x - 1] is None or row[z - 1] is None:
             raise MeasuredFileError(name, f"{' and '.join(map(repr, chosen))} are no two numbers", line)
-        # Those of other columns tell, too, what is a separator of thousands; `1.` is a number in a list.
-        marks |= {mark for mark in ".," for cell, number in zip(cells, row, strict=False) if number is not None and mark in cell[:-1]}
+        # Those of other columns tell, too, what is a separator of thousands; `1.` numbers a row, and `n.a.` is no number.
+        for mark in {".", ","} - marks:
+            if any(mark in cell[:-1] and not (n is None or n != n) for cell, n in zip(cells, row, strict=False)):
+                marks.add(mark)
         if len(marks) > 1:
             reason = "numbers with a decimal point, and others with a comma: take out separators of thousands"
             raise MeasuredFileError(name, reason, line)

@@ -111,8 +111,7 @@ class PartialSlip:
         >>> round(slip.traction(edge) / slip.normal.pressure(edge), 12)
         0.4
         """
-        found: float | FloatArray = each(self._found.traction, x)
-        return found
+        return each(self._found.traction, x)
 
     def sample(self, count: int = 257) -> tuple[FloatArray, FloatArray]:
         """Returns places and tractions for drawing by straight lines.

@@ -403,8 +403,7 @@ class LoadRates:
     def pressure(self, x: Numbers) -> FloatArray: ...
     def pressure(self, x: float | Numbers) -> float | FloatArray:
         """Returns ∂P/∂F at fixed x, one over a length; zero outside the contacts."""
-        found: float | FloatArray = each(self._rates.pressure, x)
-        return found
+        return each(self._rates.pressure, x)
 
     def __repr__(self) -> str:
         return f"LoadRates(a={self.a!r}, b={self.b!r})"
@@ -642,8 +641,7 @@ class Solution:
 
         Its quadrature is independent of the solve.
         """
-        found: float | FloatArray = each(self._found.residual, x)
-        return found
+        return each(self._found.residual, x)
 
     # Pressure.
 
@@ -678,8 +676,7 @@ class Solution:
         >>> solution.pressure([[0.0, 0.1], [0.2, 0.3]]).shape
         (2, 2)
         """
-        found: float | FloatArray = each(self._found.pressure, x)
-        return found
+        return each(self._found.pressure, x)
 
     def pressure_estimate(self, x: float | Numbers) -> tuple[Any, Any]:
         """Returns pressures and their estimated errors: two pressures, or two arrays."""
@@ -771,8 +768,7 @@ class Solution:
         >>> solution.gap([0.1, 0.4]).round(6)
         array([0.      , 0.042943])
         """
-        found: float | FloatArray = each(self._found.gap, x)
-        return found
+        return each(self._found.gap, x)
 
     @overload
     def gap_slope(self, x: float) -> float: ...
@@ -780,8 +776,7 @@ class Solution:
     def gap_slope(self, x: Numbers) -> FloatArray: ...
     def gap_slope(self, x: float | Numbers) -> float | FloatArray:
         """Returns the derivative of this gap by x: no unit, zero in the contacts."""
-        found: float | FloatArray = each(self._found.gap_slope, x)
-        return found
+        return each(self._found.gap_slope, x)
 
     def stress(
         self, x: float | Numbers, depth: float | Numbers, *, body: Side | None = None, friction: float = 0.0
@@ -927,8 +922,7 @@ class Solution:
         array([7.35 , 4.703, 2.752])
         """
         to, side = as_references(references), as_side(body, True)
-        found: float | FloatArray = each(lambda x: self._found.displacement(x, to, side), x)
-        return found
+        return each(lambda x: self._found.displacement(x, to, side), x)
 
     def stiffness(self, references: References) -> float:
         """Returns the stiffness dF/dδ, the derivative of the load by the approach: a pressure."""
