@@ -168,7 +168,7 @@ def largest_tresca(solution: Solution, of: Below) -> StressPeak:
             spread = np.ptp([*stress.principal(), stress.sigma_z(of.ratio or 0.0)], axis=0)
             row, column = np.unravel_index(np.argmax(spread), spread.shape)
             x, depth, reach = float(places[column]), float(depths[row]), 0.5 * reach
-        best.append(StressPeak(*placed(on.half_width, x, depth, float(spread[row, column]))))
+        best.append(StressPeak(*placed([on], x, depth, float(spread[row, column]))))
     return max(best, key=lambda one: one.value)
 
 

@@ -340,9 +340,10 @@ def _plain(value: Any) -> Any:
     return float(value) if np.ndim(value) == 0 else value
 
 
-def placed(half_width: float, x: float, *values: float) -> tuple[Any, ...]:
-    """Returns the place of a largest value, 0 if it is 0 to rounding, and the values."""
-    return x if abs(x) >= ROUNDING * half_width else 0.0, *values
+def placed(contacts: Sequence[Interval], x: float, *values: float) -> tuple[Any, ...]:
+    """Returns the place of a largest value, 0 if it is 0 to rounding beside the narrowest contact, and the values."""
+    width = min((on.half_width for on in contacts), default=0.0)
+    return x if abs(x) >= ROUNDING * width else 0.0, *values
 
 
 def _ratio(given: float) -> float:
@@ -707,10 +708,7 @@ class Solution:
         >>> round(solution.peak().pressure, 12)  # 2 F/(π L)
         0.063661977237
         """
-        return Peak(*self._placed(*self._found.peak()))
-
-    def _placed(self, x: float, *values: float) -> tuple[Any, ...]:
-        return placed(min((on.half_width for on in self.intervals), default=0.0), x, *values)
+        return Peak(*placed(self.intervals, *self._found.peak()))
 
     @property
     def mean_pressure(self) -> float:
@@ -743,7 +741,7 @@ class Solution:
 
         def region(on: Any, load: float, strengths: Any, peak: Any, *rest: Any) -> ContactRegion:
             interval = Interval(*on)
-            peak = None if peak is None else Peak(*placed(interval.half_width, *peak))
+            peak = None if peak is None else Peak(*placed([interval], *peak))
             return ContactRegion(interval, load, strengths, peak, *rest)
 
         return tuple(region(*found) for found in self._found.contacts())
@@ -838,7 +836,7 @@ class Solution:
         (0.300283, 0.7862)
         """
         below = None if depths is None else as_range(depths, "depths")
-        return StressPeak(*self._placed(*self._found.max_shear(as_side(body), below, as_number(friction, "friction"))))
+        return StressPeak(*placed(self.intervals, *self._found.max_shear(as_side(body), below, as_number(friction, "friction"))))
 
     def max_von_mises(
         self,
@@ -869,7 +867,7 @@ class Solution:
 
         side, below = as_side(body), None if depths is None else as_range(depths, "depths")
         ratio = ratio_below(self.contact, side, below) if poisson_ratio is None else as_number(poisson_ratio, "poisson_ratio")
-        return StressPeak(*self._placed(*self._found.max_von_mises(side, below, ratio, as_number(friction, "friction"))))
+        return StressPeak(*placed(self.intervals, *self._found.max_von_mises(side, below, ratio, as_number(friction, "friction"))))
 
     def max_tension(self, *, body: Side | None = None, friction: float = 0.0) -> Extremum:
         """Returns the largest tension along the surface, the largest σ_x at depth 0, and its x.
@@ -954,7 +952,7 @@ class Solution:
             kappa,
             tilt,
             mean,
-            None if peak is None else Peak(*self._placed(*peak)),
+            None if peak is None else Peak(*placed(self.intervals, *peak)),
             centre,
             self.edge_singularities,
             self.limits_error,
