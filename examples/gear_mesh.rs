@@ -124,9 +124,9 @@ fn draw(mesh: &Mesh, rows: &[Row]) -> Result<String, Box<dyn Error>> {
         points.map(|at| (at.x, at.y)).collect()
     };
     let [pinion, wheel] = mesh.flanks(pitch_point)?.each_ref().map(outline);
-    let heights = [-2.2, 2.2];
+    let heights = [-2.28, 2.28]; // as high as the two others
     let flanks =
-        Panel::new("The flanks at the pitch point", ("x / mm", [-4.0, 4.0]), ("y / mm", heights))
+        Panel::new("The flanks at the pitch point", ("x / mm", [-3.0, 3.0]), ("y / mm", heights))
             .with_equal_scales(400)
             .body(pinion, heights[0], BLUE, "")
             .body(wheel, heights[1], RED, "")

@@ -87,10 +87,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     assert!((thick.a() / hertz(2.0) - 1.0).abs() < 1e-3);
     assert!(widths.iter().all(|&(_, load, width)| width < 2.0 * hertz(load)));
     thin_layers()?;
-    println!(
-        "{}",
-        drawing::save("printing_nip", vec![vec![of_widths(&widths), pressures(&nip)?]])?
-    );
+    println!("{}", drawing::save("printing_nip", vec![vec![of_widths(&nip)?, pressures(&nip)?]])?);
     Ok(())
 }
 
@@ -123,17 +120,21 @@ fn shade(i: usize, of: usize) -> drawing::RGBColor {
     mix(drawing::tint(BLUE, 0.5), RED, i as f64 / (of - 1) as f64)
 }
 
-fn of_widths(widths: &[(f64, f64, f64)]) -> Panel {
+fn of_widths(nip: &Nip) -> Result<Panel, Box<dyn Error>> {
     let axes = (("thickness of the cover / mm", [0.0, 62.0]), ("nip width / mm", [0.0, 80.0]));
     let panel = Panel::new("Nip width, and that of a half-plane (dashed)", axes.0, axes.1)
         .size(400, 220)
         .legend(SeriesLabelPosition::UpperLeft);
-    LOADS.into_iter().enumerate().fold(panel, |panel, (i, load)| {
-        let own = widths.iter().filter(|width| width.1 == load);
-        let points: Points = own.map(|&(thickness, _, width)| (thickness, width)).collect();
+    LOADS.into_iter().enumerate().try_fold(panel, |panel, (i, load)| {
+        let width = |thickness: f64| {
+            let solution = nip.contact(cover(thickness, RATIO))?.solve(Control::Load(load))?;
+            Ok::<_, ContactError<f64>>((thickness, 2.0 * solution.a()))
+        };
+        let thicknesses = (0..=48).map(|step| 2.0 * 30.0_f64.powf(f64::from(step) / 48.0));
+        let points = thicknesses.map(width).collect::<Result<Points, _>>()?;
         let plain = vec![(0.0, 2.0 * hertz(load)), (62.0, 2.0 * hertz(load))];
         let color = shade(i, LOADS.len());
-        panel.line(points, color, &format!("{load} N/mm")).dashed(plain, color, "")
+        Ok(panel.line(points, color, &format!("{load} N/mm")).dashed(plain, color, ""))
     })
 }
 

@@ -118,7 +118,7 @@ fn draw(
         .with_equal_scales(WIDTH)
         .levels(&shears, &levels, RED)
         .dots(vec![(worst.x, -worst.depth)], BLACK, "")
-        .note(worst.x, -worst.depth - 0.01, &name, BLACK);
+        .note(worst.x, -worst.depth - 0.03, &name, BLACK);
     let key = Panel::key("largest shear stress / MPa", WIDTH, &levels, RED);
     drawing::save("quickstart", vec![vec![whole], vec![pressures, stress, key]])
 }

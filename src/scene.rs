@@ -66,7 +66,7 @@ pub struct Scene<T> {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub title: String,
     /// Labels of the units.
-    #[serde(default, skip_serializing_if = "Units::is_empty")]
+    #[serde(default, deserialize_with = "agreeing", skip_serializing_if = "Units::is_empty")]
     pub units: Units,
     /// Source of κ; without it κ = 1.
     #[serde(default, deserialize_with = "possible", skip_serializing_if = "Option::is_none")]
@@ -129,7 +129,8 @@ fn possible<'de, T: Real + Deserialize<'de>, D: Deserializer<'de>>(
 }
 
 /// Labels of the units that the numbers of a scene are in. They are printed, and convert nothing;
-/// an empty one is not printed.
+/// an empty one is not printed. Files whose units are known and do not go together, such as GPa
+/// with mm and N/mm, are refused.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Units {
@@ -144,10 +145,44 @@ pub struct Units {
     pub load: String,
 }
 
+/// Sizes of units in m, N and Pa, to four digits; the micro sign and the Greek mu are different.
+#[rustfmt::skip]
+const SIZES: [(&str, f64); 17] = [
+    ("m", 1e0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("\u{b5}m", 1e-6), ("\u{3bc}m", 1e-6), ("in", 2.54e-2),
+    ("N", 1e0), ("kN", 1e3), ("MN", 1e6), ("lbf", 4.448), ("Pa", 1e0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9),
+    ("psi", 6.895e3), ("ksi", 6.895e6),
+];
+
 impl Units {
     fn is_empty(&self) -> bool {
         *self == Self::default()
     }
+}
+
+/// Returns the size of a unit such as `N/mm²`, if it is known.
+fn size(label: &str) -> Option<f64> {
+    match (label.split_once('/'), label.strip_suffix(['²', '2'])) {
+        (Some((of, per)), _) => Some(size(of)? / size(per)?),
+        (_, Some(root)) => Some(size(root.trim_end_matches('^'))?.powi(2)),
+        _ => SIZES.iter().find(|one| one.0 == label.trim()).map(|one| one.1),
+    }
+}
+
+/// Reads units, and refuses known ones whose product of pressure and length is another load.
+fn agreeing<'de, D: Deserializer<'de>>(file: D) -> Result<Units, D::Error> {
+    let units = Units::deserialize(file)?;
+    let Units { length, pressure, load } = &units;
+    // Other powers of ten, or inches among them, are off by far more.
+    let goes = |unit: &str| Some((size(unit)? * size(length)? / size(load)?).ln().abs() < 0.5);
+    if goes(pressure) == Some(false) {
+        let mut others =
+            SIZES.iter().filter(|one| load.contains('/') && one.0.contains(['P', 's']));
+        let other = others.find(|one| goes(one.0) == Some(true));
+        let remedy = other.map(|one| format!(": give pressures in {}", one.0)).unwrap_or_default();
+        let says = format!("{pressure} times {length} is no load per length in {load}{remedy}");
+        return Err(de::Error::custom(says));
+    }
+    Ok(units)
 }
 
 impl<T: Real> Scene<T> {

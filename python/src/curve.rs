@@ -137,7 +137,7 @@ fn of_no_length(py: Python<'_>, part: usize, found: &Bound<'_, PyAny>, count: us
     };
     PyValueError::new_err(format!(
         "the function of a Curve has returned {name} {found} for {count} values of k: each of x, y, dx and dy must be \
-         as many numbers, or one for all"
+         as many numbers, or a plain number for all"
     ))
 }
 
@@ -157,6 +157,10 @@ fn spread<'py>(part: &Bound<'py, PyAny>, count: usize) -> PyResult<PyReadonlyArr
     }
     let float = [("dtype", "float64")].into_py_dict(py)?;
     let row = numpy.call_method("asarray", (part,), Some(&float))?;
+    // An array of one number is one whose others are missing.
+    if row.len().is_ok_and(|length| length != count) {
+        return Err(PyTypeError::new_err("an array of another length"));
+    }
     let row = numpy.call_method1("broadcast_to", (row, (count,)))?;
     let row = numpy.call_method1("ascontiguousarray", (row,))?;
     Ok(row.cast_into::<PyArray1<f64>>()?.readonly())

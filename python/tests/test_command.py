@@ -506,6 +506,21 @@ def test_a_field_that_is_not_known_is_told(run: Run, monkeypatch: pytest.MonkeyP
     assert code == 1 and errors == "linecontact: cannot write out.npz: the pressure is infinite\n"
 
 
+def test_the_number_of_contacts_is_told(run: Run, tmp_path: Path) -> None:
+    grooved = lc.Curve((-2.0, 2.0), lambda x: (x, x**4 - 2 * x**2, 1.0, 4 * x**3 - 4 * x))
+    scene, file = Scene(lc.Contact(lc.Flat(), grooved, contact_modulus=1.0), (), UNITS, ""), tmp_path / "out.csv"
+    loads = [1.0, 4.0, 7.0]
+    counts = [len(scene.contact.solve(load=load).intervals) for load in loads]
+    assert counts == [2, 1, 1]
+    code, text, _ = run(scene, "--load", "1:7:3", "--csv", file)
+    head, _, *rows = (re.split("  +", line.strip()) for line in text.splitlines()[:5])
+    assert code == 0 and [row[head.index("contacts")] for row in rows] == ["2", "1", "1"]
+    with file.open(newline="") as of:
+        assert [row["contacts"] for row in csv.DictReader(of)] == ["2", "1", "1"]
+    # One contact under each load needs no column.
+    assert "contacts" not in run(roller(), "--load", "100:500:5")[1]
+
+
 def test_units_in_doubt_are_told_below_a_table_and_in_the_csv(run: Run, tmp_path: Path) -> None:
     """Moduli in GPa by mistake."""
     soft, file = lc.Material(210.0, 0.3), tmp_path / "out.csv"

@@ -152,7 +152,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (
         lambda: lc.Piecewise([lc.Wedge((-1, 1), 1.0)]).flipped(),
         "PiecewiseInPieceError",
-        {"piece": 0, "source": "ProfileJoinedError", "source.pieces": 2},
+        {"piece": 1, "source": "ProfileJoinedError", "source.pieces": 2},
     ),
     (
         lambda: graph(lambda x: x**2, lambda x: x).check_derivatives(),
@@ -171,7 +171,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     ),
     (lambda: lc.Piecewise([]), "PiecewiseNoPiecesError", {}),
     (lambda: lc.Piecewise([BODY], tolerance=-1.0), "PiecewiseToleranceError", {"tolerance": -1.0}),
-    (two_jumps, "PiecewiseGapError", {"breakpoint": 0, "left": 0.0, "right": 0.5}),
+    (two_jumps, "PiecewiseGapError", {"breakpoint": 1, "left": 0.0, "right": 0.5}),
     (lambda: lc.Piecewise([BODY, BODY]), "PiecewiseOverlapError", {"left": 1.0, "right": -1.0}),
     (
         lambda: lc.Piecewise([lc.Line(0.0, (-1, 1)), lc.Line(1.0, (1, 2))]),
@@ -726,8 +726,10 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     (
         lambda: ANY.Curve((-1, 1), lambda k: (k, k[:1].repeat(3), k, k)),
         ValueError,
-        ("returned y of shape (3,) for 2 values of k", "as many numbers, or one for all"),
+        ("returned y of shape (3,) for 2 values of k", "as many numbers, or a plain number for all"),
     ),
+    (lambda: ANY.Curve((-1, 1), lambda k: (k, k**2, 1, k[:1])), ValueError, ("returned dy of shape (1,) for 2 values of k",)),
+    (lambda: ANY.Curve((-1, 1), lambda k: (k, [0], 1, k)), ValueError, ("returned y of shape (1,) for 2 values of k",)),
     (
         lambda: ANY.Curve((-1, 1), lambda k: (k, k, "steep", k)),
         ValueError,
@@ -737,6 +739,26 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     (lambda: ANY.Curve((-1, 1), lambda k: None), TypeError, ("returned nothing:", "must return four")),
     (lambda: anything(contact()).solve(load="500"), TypeError, ("load is '500'", "give one number")),
     (lambda: anything(contact()).solve(load=[1.0, 2.0]), TypeError, ("load is [1.0, 2.0]", "give one number")),
+    *(
+        (call, TypeError, (f"{name} is True: give one number",))
+        for name, call in {
+            "load": lambda: contact().solve(load=True),
+            "radius": lambda: ANY.Parabola(True, (-1, 1)),
+            "domain": lambda: ANY.Parabola(10, (-1, True)),
+            "youngs_modulus": lambda: lc.Material(True, 0.3),
+            "x": lambda: lc.Edge.fixed(True),
+            "depth": lambda: lc.Reference.depth(True),
+            "at_a": lambda: contact(edge_pressure=lc.EdgePressure(True, 0, 1, 1, 1, 1)),
+            "tolerance": lambda: contact(quadrature=lc.Panels(True)),
+            "segments": lambda: contact(quadrature=lc.Midpoint(True)),
+            "absolute": lambda: contact(limit_search=lc.Search("brent", True)),
+            "peak_pressure": lambda: lc.gradient(contact(), "load", "kappa", peak_pressure=True),
+        }.items()
+    ),
+    (lambda: contact().solve(load=anything(np.bool_(False))), TypeError, ("load is ", "False", ": give one number")),
+    (lambda: ANY.sweep(contact(), load=[True, False]), TypeError, ("load is [True, False]: give numbers",)),
+    (lambda: solved().pressure(True), TypeError, ("x is True: give numbers",)),
+    (lambda: ANY.Spline([[False, False]] * 5), TypeError, ("give numbers",)),
     (lambda: ANY.sweep(contact(), load="500"), TypeError, ("load is '500'", "give numbers")),
     (lambda: ANY.sweep(contact(), load=["1", "2"]), TypeError, ("load is ['1', '2']", "give numbers")),
     (

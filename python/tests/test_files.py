@@ -261,6 +261,19 @@ def test_a_scene_that_cannot_be_solved_is_refused() -> None:
     assert lc.Scene(contact, [{"load": 1.0}]) == lc.Scene(contact, ({"load": 1.0},))
 
 
+def test_units_that_do_not_go_together_are_refused(tmp_path: Path) -> None:
+    contact, file = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), contact_modulus=115.0), tmp_path / "scene.toml"
+    units = {"length": "mm", "pressure": "MPa", "load": "N/mm"}
+    lc.Scene(contact, (), units).to_file(file)
+    file.write_text(file.read_text().replace("MPa", "GPa"))
+    says = "GPa times mm is no load per length in N/mm: give pressures in MPa"
+    with pytest.raises(errors.SceneFileError, match=says) as raised:
+        lc.Scene.from_file(file)
+    assert raised.value.field == "units" and raised.value.line is not None
+    with pytest.raises(errors.SceneFileError, match=says):
+        lc.Scene(contact, (), units | {"pressure": "GPa"}).to_file(file)
+
+
 def layered(**wrong: Any) -> dict[str, Any]:
     """Returns the stiffness of a layer, with wrong fields; None leaves one out."""
     layer = {"material": "rigid", "thickness": 1.0, "base": "bonded"} | wrong

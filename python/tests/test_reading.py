@@ -80,6 +80,17 @@ def test_the_micro_sign(unit: bytes, tmp_path: Path) -> None:
     np.testing.assert_allclose(lc.read_profile(file, unit="nm").points, [[0.0, 3e3], [1e6, 4e3]])
 
 
+@pytest.mark.parametrize(
+    ("unit", "metres"),
+    [("µin", 2.54e-8), ("microinches", 2.54e-8), ("mil", 2.54e-5), ("mils", 2.54e-5), ("thou", 2.54e-5), ("Å", 1e-10), ("\u212b", 1e-10)],
+)
+def test_units_of_other_trades(unit: str, metres: float, tmp_path: Path) -> None:
+    text = f"x [{unit}]; z [{unit}]\n0; 3\n1; 4\n"
+    np.testing.assert_allclose(lc.read_profile(written(tmp_path, "roller.csv", text), unit="m").points[1], [metres, 4 * metres])
+    bare = written(tmp_path, "bare.csv", "0; 3\n1; 4\n")
+    np.testing.assert_allclose(lc.read_profile(bare, file_units=("m", unit), unit=unit).points[1], [1 / metres, 4])
+
+
 def test_units_and_columns(tmp_path: Path) -> None:
     bare = written(tmp_path, "bare.csv", "0;3\n1;4\n")
     marked = written(tmp_path, "marked.csv", b"\xef\xbb\xbf0;3\n1;4\n")
@@ -160,6 +171,21 @@ def test_columns_by_name(tmp_path: Path) -> None:
     with pytest.raises(lc.errors.MeasuredFileError, match="no column 'z' in the header: there are 'n', 'x") as raised:
         lc.read_profile(written(tmp_path, "no.csv", "n;x;y\n1;0;3\n2;1;4\n"), columns=("x", "z"))
     assert raised.value.line == 1
+
+
+def test_columns_that_no_header_names(tmp_path: Path) -> None:
+    """A title is no header if another line has all names; a remark of several words is no column."""
+    for text in [
+        "Roller, left\n,x,z\n0,0,3\n1,1,4\n",
+        "n,x,z\nmm,um\n0,0,3\n1,1,4\n",
+        "n;x;z\n1.;0,0;3\n2.;1,0;4\n",
+        "n;x;z\nn.a.;0,0;3\n1.#IND;1,0;4\n",
+        "of no name\n0 0 3\n1 1 4\n",
+        "n,x,z,note\n0,0,3,\n1,1,4,dust, left\n",
+        "n,x,z,note\n0,0,3,dust\n1,1,4,dust, left\n",
+    ]:
+        found = lc.read_profile(written(tmp_path, "names.txt", text), columns=(2, 3))
+        assert found.points.tolist() == [[0, 3], [1, 4]], text
 
 
 def test_columns_are_taken_as_they_are_named(tmp_path: Path) -> None:
@@ -476,6 +502,21 @@ NO_X = LINES.replace("Xscale", "Yscale").encode()
 NO_COUNT = LINES.replace("= 401", "= 4e2").encode()
 MINUS = LINES.replace("= 401", "= -401").replace("= 3\r", "= -3\r").encode()
 ZERO = LINES.replace("0.0000000000000000e+00", "zero").encode()
+# Header, rows, arguments, line and number of columns, 0 where points and commas are mixed.
+THOUSANDS: list[tuple[str, str, dict[str, Any], int, int]] = [
+    ("x,z,flag", "0.0000,-85,000,000,1\n0.0001,-85,100,000,1\n", {"columns": (1, 2)}, 2, 5),
+    ("x,z,flag", "0.0000,-85,000,000,1\n0.0001,-85,100,000,1\n", {"columns": ("x", "z")}, 2, 5),
+    ("x [mm],z [nm]", "0.0,-85,000\n0.1,-85,100\n", {}, 2, 3),
+    ("Roller\na,b", "0.0,-85,000\n0.1,-85,100\n", {"columns": (1, 2)}, 3, 3),
+    ("x z flag", "0.0 -85 000 1\n0.1 -85 100 1\n", {"columns": (1, 2)}, 2, 4),
+    ("x,z,flag", "0.0,-850,OK\n0.1,-1,234,OK\n0.2,-850,OK\n", {"columns": (1, 2)}, 3, 4),
+    ("x,z,t,flag", "0.0,-850,20,OK\n0.1,-1,234,20,OK\n", {"columns": (1, 2)}, 3, 5),
+    ("x,z,flag", "0.0,-850,1\n0.1,-1,234,1\n", {"columns": (1, 2)}, 3, 4),
+    ("x;z", "0,0;1.234\n0,1;1.235\n", {}, 2, 0),
+    ("x;z;t", "0;1.234;0,5\n1;1.235;0,6\n", {"columns": (1, 2)}, 2, 0),
+    ("x\tz\tt", "0\t85,000\t0.5\n1\t85,100\t0.6\n", {"columns": (1, 2)}, 2, 0),
+    ("x,z", "0,1,0,2\n0,2,0,3\n", {"columns": (1, 2)}, 2, 4),
+]
 FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("empty.csv", b"", {}, {}, "no line has two numbers"),
     ("blank.csv", b"\n\n \r\n", {}, {}, "no line has two numbers"),
@@ -499,6 +540,10 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ),
     ("flag.csv", b"-4\t-3.5*\n-3\t1\n-2\t1\n", {}, {"line": 1}, "and '-3.5[*]' look like data"),
     ("quoted.csv", b'x (mm),z (um),flag\n0.0,"-1,400.0",OK\n1.0,"-1,300.0",OK\n', {}, {}, "no line has two numbers"),
+    *(
+        (f"thousands{i}.csv", f"{heads}\n{rows}".encode(), given, {"line": line}, (f"{count} columns.*" if count else "a comma: ") + "take out separators of th")
+        for i, (heads, rows, given, line, count) in enumerate(THOUSANDS)
+    ),
     ("late.csv", b"0;1;OK\n1;2;OK\n1,000.0;3;OK\nend\n", {"columns": (1, 2)}, {"line": 3}, "'3' look like data"),
     ("score.csv", b"0;1\n1;1_000\n", {}, {"line": 2}, "are no two numbers"),
     ("infinite.csv", b"0;1\n1;inf\n2;3\n", {}, {"line": 2}, "infinite"),
@@ -512,7 +557,8 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     ("twice.csv", b"0;1\n1;2\n1;3\n2;4\n", {}, {"line": 3}, "x = 1 after 1"),
     ("still.csv", b"1;1\n1;2\n", {}, {"line": 2}, "x = 1 after 1"),
     ("half.csv", b"x [mm]; z\n0;1\n1;2\n", {}, {"line": 1}, "only one of x and z has a unit"),
-    ("mils.csv", b"x [mil]; z [mil]\n0;1\n1;2\n", {}, {"line": 1}, "units 'mil' and 'mil': give file_units"),
+    ("feet.csv", b"x [ft]; z [V]\n0;1\n1;2\n", {}, {"line": 1}, r"'ft' and 'V' is no unit .* are m, cm, .*=\('mm', 'mm'\).*\[mm per ft, mm per V\]"),
+    ("volts.csv", b"x [in]; z [V]\n0;1\n1;2\n", {}, {"line": 1}, r"'V' is no unit .*=\('in', 'in'\), and multiply the points by \[1, in per V\]"),
     ("bare.csv", b"0;1\n1;2\n", {"unit": "mm"}, {}, "states no units: give file_units"),
     ("twice.csv", GOOD.encode(), {"columns": (1, 1)}, {"line": 2}, "give two of 1 to 2"),
     ("wide16.csv", "0;1\n1;2".encode("utf-16")[:-1], {}, {"byte": 14}, "no text in UTF-16"),

@@ -13,6 +13,7 @@ import xml.dom.minidom
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -534,6 +535,18 @@ def test_complex_numbers_are_refused() -> None:
         lc.Curve((-1.0, 1.0), lambda k: (k, k**2 / 2 + 0.0j, 1.0, k))
 
 
+def test_the_place_of_a_symmetric_peak_is_zero() -> None:
+    """Places of largest values have half of the digits; what is below them is no place beside 0."""
+    body = lc.Ellipse.circle(10.0, (-1.0, 1.0))
+    for load in (100.0, 200.0, 300.0, 500.0, 700.0, 1000.0):
+        solution = lc.solve(FLAT, body, contact_modulus=115e3, load=load)
+        assert repr(solution.peak()).startswith("Peak(x=0.0, ")
+        assert solution.contacts()[0].peak == solution.peak()
+        assert solution.max_shear().x == 0.0 == solution.max_von_mises(0.3).x
+    off = lc.solve(FLAT, body.shifted(0.1, 0.0), contact_modulus=115e3, load=500.0)
+    assert math.isclose(off.peak().x, 0.1, abs_tol=1e-8) and off.peak().x != 0.1
+
+
 # Pictures.
 
 
@@ -550,6 +563,27 @@ def test_pictures() -> None:
                 drawn = np.asarray(line.get_ydata(), dtype=float)
                 assert np.isfinite(drawn).sum() > 10
         assert shear.yaxis_inverted()
+
+
+def test_pictures_are_those_of_pyplot(tmp_path: Path) -> None:
+    from matplotlib import pyplot
+    from matplotlib.figure import Figure
+
+    pyplot.close("all")
+    solution = lc.solve(FLAT, BODY, kappa=1.0, load=0.01)
+    figure = solution.plot()
+    assert pyplot.gcf() is figure and pyplot.get_fignums() == [figure.number]
+    pyplot.savefig(tmp_path / "plot.png")
+    assert np.ptp(pyplot.imread(tmp_path / "plot.png")) > 0.5
+    # The next picture has a figure of its own, but for an empty one.
+    assert lc.Contact(FLAT, BODY).solve(load=0.0).plot() is not figure and len(figure.axes) == 4
+    empty = pyplot.figure(figsize=(3.0, 4.0))
+    slip = solution.partial_slip(friction=0.4, force=0.001)
+    assert slip.plot() is empty and len(empty.axes) == 4
+    assert len(pyplot.get_fignums()) == 3
+    own = Figure()
+    assert solution.plot(figure=own) is own and len(own.axes) == 4 and len(pyplot.get_fignums()) == 3
+    pyplot.close("all")
 
 
 def test_the_shear_of_each_body_with_layers() -> None:

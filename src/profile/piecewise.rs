@@ -92,7 +92,7 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
             return Err(PiecewiseError::NoPieces);
         }
         for (breakpoint, pair) in scans.windows(2).enumerate() {
-            Scan::meet(breakpoint, [&pair[0], &pair[1]], tolerance)?;
+            Scan::meet(breakpoint + 1, [&pair[0], &pair[1]], tolerance)?;
         }
         let ends: Vec<_> = scans.iter().map(|scan| (scan.piece.k, scan.piece.ends)).collect();
         let mut convexity = parts[0].convexity();
@@ -255,9 +255,9 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> 
 #[non_exhaustive]
 pub enum PiecewiseError<T: Real> {
     /// A piece is faulty by itself.
-    #[error("piece {piece} (from 0, left to right): {source}")]
+    #[error("piece {piece} from the left: {source}")]
     InPiece {
-        /// Index of the piece.
+        /// Number of the piece, from 1, left to right.
         piece: usize,
         /// Fault of the piece.
         source: ProfileError<T>,
@@ -281,12 +281,12 @@ pub enum PiecewiseError<T: Real> {
     NoPieces,
     /// Two neighbours do not meet: `x` between them belongs to neither.
     #[error(
-        "gap of {} between pieces {breakpoint} and {} (from 0, left to right): at x = {left} the one ends, at {right} \
+        "gap of {} between pieces {breakpoint} and {} from the left: at x = {left} the one ends, at {right} \
          the other starts; close it, or join them by Piecewise::with_tolerance",
         six(*right - *left), breakpoint + 1, left = apart(*left, &[*right]), right = apart(*right, &[*left])
     )]
     Gap {
-        /// Index of the breakpoint, 0 between the first two pieces.
+        /// Number of the breakpoint, 1 between the first two pieces.
         breakpoint: usize,
         /// Right end of the left piece.
         left: T,
@@ -296,12 +296,12 @@ pub enum PiecewiseError<T: Real> {
     /// Two neighbours overlap: `x` between them belongs to both. Pieces in the wrong order overlap
     /// too.
     #[error(
-        "overlap of {} between pieces {breakpoint} and {} (from 0, left to right): at x = {left} the one ends, at \
+        "overlap of {} between pieces {breakpoint} and {} from the left: at x = {left} the one ends, at \
          {right} the other starts; give them from left to right, or join them by Piecewise::with_tolerance",
         six(*left - *right), breakpoint + 1, left = apart(*left, &[*right]), right = apart(*right, &[*left])
     )]
     Overlap {
-        /// Index of the breakpoint, 0 between the first two pieces.
+        /// Number of the breakpoint, 1 between the first two pieces.
         breakpoint: usize,
         /// Right end of the left piece.
         left: T,
@@ -310,13 +310,13 @@ pub enum PiecewiseError<T: Real> {
     },
     /// Two neighbours meet at different heights.
     #[error(
-        "jump of {} between pieces {breakpoint} and {} (from 0, left to right), at x = {x}: Y = {left} on its left, \
+        "jump of {} between pieces {breakpoint} and {} from the left, at x = {x}: Y = {left} on its left, \
          {right} on its right; move one of them, or join them by Piecewise::with_tolerance",
         six(*right - *left), breakpoint + 1, x = six(*x), left = apart(*left, &[*right]),
         right = apart(*right, &[*left])
     )]
     Jump {
-        /// Index of the breakpoint, 0 between the first two pieces.
+        /// Number of the breakpoint, 1 between the first two pieces.
         breakpoint: usize,
         /// Abscissa of the breakpoint.
         x: T,
@@ -329,6 +329,6 @@ pub enum PiecewiseError<T: Real> {
 
 impl<T: Real> PiecewiseError<T> {
     pub(super) fn in_piece(piece: usize) -> impl Fn(ProfileError<T>) -> Self + Copy {
-        move |source| Self::InPiece { piece, source }
+        move |source| Self::InPiece { piece: piece + 1, source }
     }
 }

@@ -576,7 +576,7 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
         assert_says(&error, &[words]);
     }
     for (error, words) in [
-        (PiecewiseError::InPiece { piece: 12, source: not_finite }, "piece 12"),
+        (PiecewiseError::InPiece { piece: 12, source: not_finite }, "piece 12 from the left: X"),
         (
             PiecewiseError::InSegment { segment: 12, source: not_finite },
             "segment 12 of the outline: X' is NaN",
@@ -584,15 +584,15 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
         (PiecewiseError::Tolerance { tolerance: -1.5 }, "-1.5"),
         (
             PiecewiseError::Gap { breakpoint: 12, left: 1.5, right: 3.75 },
-            "gap of 2.25 between pieces 12 and 13 (from 0",
+            "gap of 2.25 between pieces 12 and 13 from the left",
         ),
         (
             PiecewiseError::Overlap { breakpoint: 12, left: 3.75, right: 1.5 },
-            "overlap of 2.25 between pieces 12 and 13 (from 0",
+            "overlap of 2.25 between pieces 12 and 13 from the left",
         ),
         (
             PiecewiseError::Jump { breakpoint: 12, x: 4.5, left: 1.5, right: 3.75 },
-            "jump of 2.25 between pieces 12 and 13 (from 0",
+            "jump of 2.25 between pieces 12 and 13 from the left",
         ),
     ] {
         assert_says(&error, &[words]);

@@ -298,8 +298,55 @@ fn a_bad_file_is_refused_with_line_and_field() {
             "`up`",
         ),
         ("\n\n", "\nunits = { width = \"mm\" }\n", 2, "units.width", "unknown field `width`"),
+        (
+            "\n\n",
+            "\nunits = { length = \"mm\", pressure = \"GPa\", load = \"N/mm\" }\n",
+            2,
+            "units",
+            "GPa times mm is no load per length in N/mm: give pressures in MPa",
+        ),
     ];
     assert_refused(Scene::from_toml, good, &refused);
+}
+
+#[test]
+fn units_that_do_not_go_together_are_refused() {
+    let read = |[length, pressure, load]: [&str; 3]| {
+        let units =
+            format!(r#"{{ "length": "{length}", "pressure": "{pressure}", "load": "{load}" }}"#);
+        let body = r#"{ "shape": "flat" }"#;
+        Scene::<f64>::from_json(&format!(
+            r#"{{ "units": {units}, "lower": {body}, "upper": {body} }}"#
+        ))
+    };
+    for units in [
+        ["mm", "MPa", "N/mm"],
+        ["mm", "N/mm²", "N/mm"],
+        ["mm", "N/mm^2", "kN/m"],
+        ["mm", "GPa", "kN/mm"],
+        ["m", "Pa", "N/m"],
+        ["µm", "MPa", "N / m"],
+        ["in", "psi", "lbf/in"],
+        ["mm", "MPa", ""],
+        ["parsec", "GPa", "N/mm"],
+        ["", "GPa", "N/mm"],
+    ] {
+        assert!(read(units).is_ok(), "{units:?}");
+    }
+    for (units, remedy) in [
+        (["mm", "GPa", "N/mm"], ": give pressures in MPa"),
+        (["mm", "Pa", "N/m"], ": give pressures in kPa"),
+        (["m", "MPa", "N/m"], ": give pressures in Pa"),
+        (["in", "ksi", "lbf/in"], ": give pressures in psi"),
+        (["in", "MPa", "lbf/in"], ": give pressures in psi"),
+        (["cm", "MPa", "N/mm"], ""),
+        (["mm", "MPa", "N"], ""),
+    ] {
+        let [length, pressure, load] = units;
+        let says = format!("{pressure} times {length} is no load per length in {load}{remedy}");
+        let error = read(units).expect_err(&says);
+        assert_eq!((error.field.as_str(), error.reason.as_str()), ("units", &*says));
+    }
 }
 
 #[test]
@@ -390,10 +437,16 @@ fn a_bad_json_file_is_refused_with_line_and_field() {
             "\"reach\": -1",
             5,
             "upper",
-            "piece 0 (from 0, left to right): the reach is -1: it must be positive",
+            "piece 1 from the left: the reach is -1: it must be positive",
         ),
         (wedge, r#""piecewise": {"parts": []}"#, 5, "upper", "at least one piece"),
-        (wedge, &parts(0.5, "1e-12"), 5, "upper", "gap of 0.5 between pieces 0 and 1"),
+        (
+            wedge,
+            &parts(0.5, "1e-12"),
+            5,
+            "upper",
+            "gap of 0.5 between pieces 1 and 2 from the left",
+        ),
         (wedge, &parts(0.0, "-1"), 5, "upper", "tolerance -1 is out of range"),
         (wedge, r#""spline": {"points": [[0, 0], [1, 1], [0.5, 2], [2, 3]]}"#, 5, "upper", "row 3"),
         (": 1}}}\n}", ": 1}}}\n}\n]", 6, "", "trailing characters"),

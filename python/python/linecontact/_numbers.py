@@ -44,8 +44,8 @@ class Unchanging:
 
 
 def as_number(given: Any, name: str) -> float:
-    """Converts to one number; refuses text, as read from a file or a form, and arrays."""
-    if not isinstance(given, str | bytes):
+    """Converts to one number; refuses text, as read from a file or a form, arrays, True and False."""
+    if not isinstance(given, str | bytes | bool | np.bool_):
         try:
             return float(given)
         except (TypeError, ValueError):
@@ -65,12 +65,12 @@ def as_range(given: Any, name: str) -> Range:
 
 
 def as_numbers(given: Any, name: str) -> FloatArray:
-    """Converts to an array of numbers; refuses text, and masked numbers."""
+    """Converts to an array of numbers; refuses text, True and False, and masked numbers."""
     if np.ma.is_masked(given):
         count = np.sum(np.ma.getmaskarray(given))
         raise ValueError(f"{name} has {count} masked numbers: leave them out, or fill them")
     found = np.asarray(given)
-    if found.dtype.kind in "US":
+    if found.dtype.kind in "USb":
         raise TypeError(f"{name} is {given!r}: give numbers")
     if found.dtype.kind == "c":
         raise TypeError(f"{name} has complex numbers: give real ones")
@@ -140,7 +140,7 @@ def named(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Resu
     return checked
 
 
-def each(of: Callable[[FloatArray], FloatArray], x: Any) -> Any:
+def each(of: Callable[[FloatArray], FloatArray], x: Any) -> float | FloatArray:
     """Evaluates a function at `x`: a number for a number, an array for an array."""
     places = as_numbers(x, "x")
     values = of(places.reshape(-1))

@@ -414,18 +414,18 @@ def _search(given: Search | str | None, name: str) -> tuple[str, list[float]] | 
         return None
     method, *numbers = given if isinstance(given, tuple) else (given, *Search("newton")[1:])
     one_of(method, name, _native.searches())
-    return method, [as_number(number, name) for number in numbers]
+    return method, [*map(as_number, numbers, Search._fields[1:])]
 
 
 def _quadrature(given: Panels | Midpoint | None) -> tuple[str, list[float]] | None:
     if given is None:
         return None
     if isinstance(given, Panels):
-        return "panels", [given.tolerance]
+        return "panels", [as_number(given.tolerance, "tolerance")]
     if not isinstance(given, Midpoint):
         raise TypeError(f"quadrature is {given!r}: give Panels() or Midpoint()")
     even = one_of(given.exponents, "exponents", ("half_integer", "even")) == "even"
-    return "midpoint", [float(given.segments), float(given.extrapolations), float(even)]
+    return "midpoint", [*map(as_number, given[:2], given._fields), float(even)]
 
 
 class Prescribed(TypedDict, total=False):
@@ -643,6 +643,7 @@ class Contact(Unchanging):
         }
         given = self._settings | {
             "materials": None if materials is None else (*map(_foundation, _both(materials)), plane),
+            "edge_pressure": edge_pressure and [*map(as_number, edge_pressure, EdgePressure._fields)],
             "inversion": _search(inversion, "inversion"),
             "limit_search": _search(limit_search, "limit_search"),
             "quadrature": _quadrature(quadrature),

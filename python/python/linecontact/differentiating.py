@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, cast, overload
 import numpy as np
 
 from . import _native
-from ._numbers import FloatArray
+from ._numbers import FloatArray, as_number
 from .contact import Contact, References, _control
 
 if TYPE_CHECKING:
@@ -177,6 +177,5 @@ def _given(
     """Returns the prescribed quantities, and the references of an approach."""
     numbers: dict[str, Any] = {**cast("Any", prescribed)}
     references: References | None = numbers.pop("references", None)
-    kind, values = _control(numbers, references, quantities)
-    wanted = kind, [float(value) for value in values], references if kind == "approach" else None
-    return wanted, references
+    kind, values = _control({name: as_number(value, name) for name, value in numbers.items()}, references, quantities)
+    return (kind, values, references if kind == "approach" else None), references

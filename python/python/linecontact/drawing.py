@@ -133,23 +133,27 @@ def _draw_traction(axes: Axes, slip: PartialSlip) -> float:
     return float(np.min(limit, initial=0.0))
 
 
-def _figure(height: float) -> Figure:
-    """Makes a figure of this height, in inches."""
+def _figure(given: Figure | None, height: float) -> Figure:
+    """Returns the figure given, or the current one of pyplot; makes one of this height in inches if it is not empty."""
+    if given is not None:
+        return given
     try:
-        from matplotlib.figure import Figure
+        from matplotlib import pyplot
     except ImportError as missing:
         raise ImportError("plot() needs matplotlib: pip install matplotlib") from missing
-    return Figure(figsize=(6.4, height), layout="constrained")
+    if pyplot.get_fignums() and not pyplot.gcf().axes:
+        return pyplot.gcf()
+    return pyplot.figure(figsize=(6.4, height), layout="constrained")
 
 
-def plot_roller(state: RollerState, units: Sequence[str]) -> Figure:
+def plot_roller(state: RollerState, units: Sequence[str], given: Figure | None) -> Figure:
     """Draws load per unit length and largest pressure along the axis, one below the other."""
     if isinstance(units, str) or len(units) != 3:
         says = 'give names of the units of lengths, pressures and loads, as ("mm", "MPa", "N/mm")'
         raise TypeError(f"units are {units!r}: {says}")
     names = ("z", "largest pressure", "load per unit length")
     along, pressure, load = (f"{name} / {unit}" if unit else name for name, unit in zip(names, units, strict=True))
-    figure = _figure(5.6)
+    figure = _figure(given, 5.6)
     loads, pressures = figure.subplots(2, 1, sharex=True)
     # The slices have the same width.
     whole = float(np.sum(state.loads))
@@ -223,9 +227,9 @@ def measured(body: Body) -> FloatArray | None:
     return np.column_stack([z.real, z.imag])
 
 
-def _plot_apart(solution: Solution, lengths: str) -> Figure:
+def _plot_apart(solution: Solution, lengths: str, given: Figure | None) -> Figure:
     """Draws bodies that are apart, all that they have in common."""
-    figure = _figure(3.2)
+    figure = _figure(given, 3.2)
     axes, contact = figure.subplots(), solution.contact
     x = np.linspace(*covered(solution), 401)
     lower, upper = before_loading(contact, x)
@@ -274,7 +278,7 @@ def _draw_shear(axes: Axes, x: FloatArray, depth: FloatArray, shear: FloatArray,
     return axes.contourf(x, depth, shear, levels=levels, cmap="cividis", extend="neither" if deep is shear else "max")
 
 
-def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = None) -> Figure:
+def plot(solution: Solution, units: Sequence[str], given: Figure | None, slip: PartialSlip | None = None) -> Figure:
     """Draws bodies, pressure and subsurface shear, one below the other over the same x.
 
     With partial slip it draws the traction, too, and the shear is that in the lower body. If a body
@@ -286,13 +290,13 @@ def plot(solution: Solution, units: Sequence[str], slip: PartialSlip | None = No
     on, contact = solution.hull, solution.contact
     of_each: Sequence[tuple[Side | None, float]] = [("lower", np.inf)] if slip else bodies_below(contact)
     if solution.is_apart:
-        return _plot_apart(solution, lengths)
+        return _plot_apart(solution, lengths, given)
     beside = 2 * BESIDE * on.half_width
     if period(contact) is not None:
         # The next contacts, whose pressure is not drawn, are not shown.
         beside = min(beside, covered(solution)[1] - on.right)
     x = np.linspace(on.left - beside, on.right + beside, 401)
-    figure = _figure(5.3 + 2.7 * len(of_each))
+    figure = _figure(given, 5.3 + 2.7 * len(of_each))
     bodies, pressure, *shears = figure.subplots(2 + len(of_each), 1, sharex=True)
 
     lower, upper = before_loading(contact, x, solution.tilt)

@@ -1617,7 +1617,7 @@ class PiecewiseInPieceError(InputError):
     Attributes
     ----------
     piece : int
-        Index of the piece.
+        Number of the piece, from 1, left to right.
     source : LineContactError
         Fault of the piece.
     """
@@ -1663,7 +1663,7 @@ class PiecewiseGapError(InputError):
     Attributes
     ----------
     breakpoint : int
-        Index of the breakpoint, 0 between the first two pieces.
+        Number of the breakpoint, 1 between the first two pieces.
     left : float
         Right end of the left piece.
     right : float
@@ -1683,7 +1683,7 @@ class PiecewiseOverlapError(InputError):
     Attributes
     ----------
     breakpoint : int
-        Index of the breakpoint, 0 between the first two pieces.
+        Number of the breakpoint, 1 between the first two pieces.
     left : float
         Right end of the left piece.
     right : float
@@ -1701,7 +1701,7 @@ class PiecewiseJumpError(InputError):
     Attributes
     ----------
     breakpoint : int
-        Index of the breakpoint, 0 between the first two pieces.
+        Number of the breakpoint, 1 between the first two pieces.
     x : float
         Abscissa of the breakpoint.
     left : float

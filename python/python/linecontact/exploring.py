@@ -304,7 +304,7 @@ def _left_out(solution: Solution, sampled: FloatArray) -> list[tuple[float, floa
             found.append((x, pressure))
     peak = _peak(solution)
     if peak["x"] not in (*sampled, *solution.hull):
-        found.append((peak["x"], math.inf if peak["pressure"] is None else peak["pressure"]))
+        found.append((peak["x"], math.inf if peak["pressure"] is None else solution.pressure(peak["x"])))
     return found
 
 

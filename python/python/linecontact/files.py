@@ -51,7 +51,8 @@ class Scene:
     controls : sequence of dict
         Keyword arguments of `Contact.solve`, one dict for each solve.
     units : dict
-        Labels of the units of "length", "pressure" and "load": they convert nothing.
+        Labels of the units of "length", "pressure" and "load": they convert nothing. Files whose units
+        do not go together, such as GPa with mm and N/mm, are refused.
     title : str
         Name of the scene.
     references : References, optional

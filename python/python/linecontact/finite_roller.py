@@ -81,7 +81,7 @@ class RollerState(NamedTuple):
         """Largest pressure of all slices; infinite at a corner."""
         return float(np.max(self.pressures))
 
-    def plot(self, units: Sequence[str] = ("", "", "")) -> Figure:
+    def plot(self, units: Sequence[str] = ("", "", ""), figure: Figure | None = None) -> Figure:
         """Draws the load per unit length and the largest pressure along the axis.
 
         It needs matplotlib.
@@ -91,6 +91,8 @@ class RollerState(NamedTuple):
         units : (str, str, str), optional
             Names of the units of lengths, pressures and loads per unit length, to be shown at the
             axes, such as ("mm", "MPa", "N/mm").
+        figure : matplotlib.figure.Figure, optional
+            Figure to draw in, as for `Solution.plot`.
 
         Returns
         -------
@@ -98,7 +100,7 @@ class RollerState(NamedTuple):
         """
         from .drawing import plot_roller
 
-        return plot_roller(self, units)
+        return plot_roller(self, units, figure)
 
 
 class FiniteRoller:

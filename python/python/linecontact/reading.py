@@ -24,14 +24,15 @@ from .errors import MeasuredFileError
 
 __all__ = ["MeasuredProfile", "read_profile"]
 
-# Units of length, in metres; the micro sign and the Greek mu are different characters.
+# Units of length, in metres.
 _METRES = {
-    "m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "μm": 1e-6, "nm": 1e-9, "in": 0.0254,
+    "m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "å": 1e-10, "in": 0.0254, "mil": 2.54e-5,
+    "uin": 2.54e-8,
 }  # fmt: skip
-# Their names in headers, singular and in American spelling, as `_unit` makes them.
+# Their names in headers, singular and in American spelling, as `_symbol` makes them.
 _NAMES = {
     "meter": "m", "centimeter": "cm", "millimeter": "mm", "micrometer": "um", "micron": "um", "nanometer": "nm",
-    "inch": "in", "inche": "in",
+    "angstrom": "å", "inch": "in", "inche": "in", "mil": "mil", "thou": "mil", "microinch": "uin", "microinche": "uin",
 }  # fmt: skip
 # Word in brackets, after a slash or after "in", as in `x [mm]`, `x (mm)`, `x / mm` and `x in mm`.
 _STATED = re.compile(r"(?:[\[(/]|\bin\s)\s*([^][()/\s,]+)\s*(?:[\])]|$|(?=[\s,]))")
@@ -55,9 +56,10 @@ _DELIMITERS = ("\t", ";", ",", None)
 
 
 class _Head(NamedTuple):
-    """A line of a header, with its cells by one delimiter or another, those of the table first."""
+    """A line of a header, with its cells by the delimiter of the table, and by all, best ones first."""
 
     line: int
+    cells: list[str]
     ways: list[list[str]]
 
 
@@ -144,7 +146,8 @@ def read_profile(
     first line of numbers are the header, and may state units as in ``x [mm]; z [um]``; lines of
     words after the last are left out, and so are a few numbers behind an empty line with which no
     column goes on, such as their count, and what follows ``#``, ``%`` or ``!``. Numbers may have
-    decimal commas, but no separators of thousands. A profile that was measured from right to left
+    decimal commas, but no separators of thousands, which are refused where they can be told: a lone
+    ``-85,000`` is a decimal comma, and without a header two columns. A profile that was measured from right to left
     is reversed. Heights are as in the file: upwards, out of the material. For an upper body the
     spline is to be `flipped`.
 
@@ -152,7 +155,7 @@ def read_profile(
     ----------
     path : str or path-like
         File. X3P and SDF are told from texts by their first bytes.
-    unit : {"m", "cm", "mm", "um", "nm", "in"}, optional
+    unit : {"m", "cm", "mm", "um", "nm", "å", "in", "mil", "uin"}, optional
         Unit of the result. Default: that of x in the file, "m" for X3P and SDF.
     row : int, optional
         Profile to be read from a surface, counted from 1, through all layers.
@@ -200,8 +203,8 @@ def read_profile(
     for words, pair in (("columns", columns), ("file_units", file_units)):
         if pair is not None and (isinstance(pair, str) or len(pair) != 2):
             raise TypeError(f"{words} is {pair!r}: give two, of x and z")
-    for given in (*(file_units or ()), *([] if unit is None else [unit])):
-        one_of(given, "unit", tuple(_METRES))
+    unit = None if unit is None else _known(unit)
+    file_units = None if file_units is None else (_known(file_units[0]), _known(file_units[1]))
     if facing is not None:
         one_of(facing, "facing", ("up", "down"))
     kind = surfaces.kind_of(name, data)
@@ -284,6 +287,9 @@ def _text(
     lines = re.split(r"\r\n|\r|\n", _decoded(name, data))
     first, delimiter, width = _first_row(name, lines)
     heads = _heads(lines[:first], delimiter, width)
+    if (names := _names(heads, delimiter)) and len(names.cells) < width:
+        reason = f"{width} columns, of which line {names.line} names {len(names.cells)}: take out separators of thousands, or name all"
+        raise MeasuredFileError(name, reason + _commas([_cells(lines[first], delimiter)], delimiter), first + 1)
     x, z = _in_order(heads) if columns is None else (_numbered(name, heads, column) for column in columns)
     if min(x, z) < 1 or max(x, z) > width or x == z:
         raise MeasuredFileError(name, f"columns are {columns}: give two of 1 to {width}", first + 1)
@@ -307,9 +313,13 @@ def _text(
         chosen = [cells[x - 1], cells[z - 1]]
         if row[x - 1] is None or row[z - 1] is None:
             raise MeasuredFileError(name, f"{' and '.join(map(repr, chosen))} are no two numbers", line)
-        marks |= {mark for mark in ".," for cell in chosen if mark in cell}
+        # Those of other columns tell, too, what is a separator of thousands; `1.` numbers a row, and `n.a.` is no number.
+        for mark in {".", ","} - marks:
+            if any(mark in cell[:-1] and not (n is None or n != n) for cell, n in zip(cells, row, strict=False)):
+                marks.add(mark)
         if len(marks) > 1:
-            raise MeasuredFileError(name, "numbers with a decimal point, and others with a comma", line)
+            reason = "numbers with a decimal point, and others with a comma: take out separators of thousands"
+            raise MeasuredFileError(name, reason, line)
     meant = next(((other, z if other != z else x) for other in can_be_x if x not in can_be_x), None)
     hint = f", as column {meant[0]} does (columns={meant})" if meant else ""
     return points[:, [x - 1, z - 1]], places, file_units or _units(name, heads, x, z), hint
@@ -329,9 +339,12 @@ def _table(
     body = [cells for cells, line in rows if not empty or line < empty[0]]
     if _is_footer(body, [cells for cells, _ in rows[len(body) :]], width):
         rows = rows[: len(body)]
+    # More words than columns are a remark, but not numbers where others have words.
+    usual = {x, z, *_filled(rows[0][0])}
     for cells, line in rows:
-        if len(cells) < width or any(cell and _number(cell) is not None for cell in cells[width:]):
-            remedy = _commas([cells for cells, _ in rows], delimiter)
+        if len(cells) < width or (len(cells) > width and not usual.issuperset(_filled(cells))):
+            remedy = "; take out separators of thousands" if len(cells) > width else ""
+            remedy += _commas([cells for cells, _ in rows], delimiter)
             if len(cells) < width and sum(line <= other for _, other in rows) <= _FOOTER:
                 remedy = "; put # in front of it if it is a footer, such as a count of points"
             reason = f"{_counted(len(cells), 'column')}: there are {width} in line {first + 1}"
@@ -441,8 +454,7 @@ def _heads(header: Sequence[str], delimiter: str | None, width: int) -> list[_He
         joined = re.sub(r"\s*([\[(/])\s*", r"\1", content)
         ways = [(content if by else joined).split(by) for by in (delimiter, *_DELIMITERS)] + [_STATED.findall(content)]
         ways = [[cell.strip('" \t') for cell in cells] for cells in ways]
-        ways.sort(key=lambda cells: len(cells) != width)
-        heads.append(_Head(line, ways))
+        heads.append(_Head(line, ways[0], sorted(ways, key=lambda cells: len(cells) != width)))
     return heads
 
 
@@ -469,6 +481,13 @@ def _numbered(name: str, heads: Sequence[_Head], column: int | str) -> int:
     raise MeasuredFileError(name, f"no column {column!r} in the header: there are {there}", heads[0].line)
 
 
+def _names(heads: Sequence[_Head], delimiter: str | None) -> _Head | None:
+    """Returns the line that names most columns; between blanks any words stand, without an x no names."""
+    words = [head for head in heads if len(head.cells) > 1 and not _filled(head.cells)]
+    named = [head for head in words if any(_ALONG.fullmatch(_bare(cell)) for cell in head.cells)]
+    return max(named or (words if delimiter else []), key=lambda head: len(head.cells), default=None)
+
+
 def _in_order(heads: Sequence[_Head]) -> tuple[int, int]:
     """Returns the columns of x and z of two: the second is x if a header calls it so, and not the first."""
     of = [[_ALONG.fullmatch(_bare(cell)) is not None for cell in head.ways[0]] for head in heads]
@@ -489,8 +508,14 @@ def _columns_to_try(heads: Sequence[_Head], width: int, can_be_x: Sequence[int],
 
 def _symbol(word: str) -> str:
     """Returns a unit as a symbol, or nothing if it is none that is known."""
-    word = word.lower()
+    # The micro sign and the Greek mu are different characters.
+    word = re.sub("[µμ]", "u", word.lower())
     return word if word in _METRES else _NAMES.get(word.removesuffix("s").replace("metre", "meter"), "")
+
+
+def _known(given: str) -> str:
+    """Returns the symbol of a unit that is given by the caller; refuses any other."""
+    return one_of(_symbol(str(given)) or given, "unit", tuple(_METRES))
 
 
 def _unit_of(head: str) -> tuple[str, str]:
@@ -505,17 +530,21 @@ def _unit_of(head: str) -> tuple[str, str]:
 
 def _units(name: str, heads: Sequence[_Head], *columns: int) -> tuple[str, str]:
     """Returns the units of x and z that the header states; two empty ones if it states none."""
-    for line, ways in heads:
+    for line, _, ways in heads:
         if max(columns) > len(ways[0]):
             continue
         (x, in_x), (z, in_z) = (_unit_of(ways[0][column - 1]) for column in columns)
         if x and z:
             return x, z
+        unit = x or z or "mm"
+        unknown = [word for word, symbol in ((in_x, x), (in_z, z)) if word and not symbol]
+        if unknown and (x or z or (in_x and in_z)):
+            factors = ", ".join("1" if symbol else f"{unit} per {word}" for word, symbol in ((in_x, x), (in_z, z)))
+            known = f"{' and '.join(map(repr, unknown))} is no unit that is known, which are {', '.join(_METRES)}"
+            remedy = f"give file_units={(unit, unit)}, and multiply the points by [{factors}]"
+            raise MeasuredFileError(name, f"{known}: {remedy}", line)
         # A word of a title may look like a unit.
         if (x or z) and (line == heads[0].line or in_x or in_z):
-            unit = x or z
-            reason = f"only one of x and z has a unit here: give file_units, such as {(unit, unit)}"
+            reason = f"only one of x and z has a unit that is known: give file_units, such as {(unit, unit)}"
             raise MeasuredFileError(name, reason, line)
-        if in_x and in_z:
-            raise MeasuredFileError(name, f"units {in_x!r} and {in_z!r}: give file_units", line)
     return "", ""

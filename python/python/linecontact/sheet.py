@@ -13,7 +13,7 @@ from .below import Below, materials
 from .contact import Layer
 from .drawing import covered
 from .errors import HalfPlanesOnlyError, LineContactError, SingularError
-from .solution import Solution, StressPeak
+from .solution import ROUNDING, Solution, StressPeak, placed
 
 if TYPE_CHECKING:
     from .files import Scene
@@ -24,6 +24,7 @@ NUMBERS = {
     "left": ("length", "contact from"),
     "right": ("length", "contact to"),
     "half_width": ("length", "half-width"),
+    "contacts": ("", ""),
     "apart_by": ("length", "apart by"),
     "centre_of_pressure": ("length", "centre of pressure"),
     "peak_pressure": ("pressure", "largest pressure"),
@@ -46,16 +47,13 @@ NUMBERS = {
 
 # Headings of a table, by number; the last ones are left out where they do not fit.
 _TABLE = {
-    "load": "load", "left": "from", "right": "to", "peak_pressure": "peak", "safety_von_mises": "S Mises",
+    "load": "load", "left": "from", "right": "to", "contacts": "contacts", "peak_pressure": "peak", "safety_von_mises": "S Mises",
     "safety_tresca": "S Tresca", "approach": "approach", "von_mises": "v. Mises", "max_shear": "shear",
     "max_shear_depth": "at depth", "mean_pressure": "mean", "stiffness": "stiffness",
 }  # fmt: skip
 
 # Number of columns of a sheet, and of each number of a table.
 _WIDTH, _CELL = 100, 10
-
-# Largest x that counts as 0, in half-widths: places of largest values have half of the digits.
-_ROUNDING = 1e-7
 
 # Relative error below which a sheet does not tell: digits that differ from machine to machine.
 _EXACT = 1e-12
@@ -103,7 +101,7 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
 
     to = control.get("references", scene.references)
     numbers.update(load=solution.load, left=-solution.b, right=solution.a, half_width=solution.half_width)
-    numbers.update(mean_pressure=solution.mean_pressure)
+    numbers.update(mean_pressure=solution.mean_pressure, contacts=len(solution.intervals))
     if solution.is_apart:
         numbers.update(apart_by=solution.separation)
     if solution.limits_error is not None:
@@ -141,11 +139,9 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
         for of in ("von_mises", "tresca"):
             numbers[f"safety_{of}"] = _safety(yield_stress, numbers[of])
     # Of bodies that are apart, places are known to the rounding of their x.
-    least = _EXACT * float(np.ptp(covered(solution))) if solution.is_apart else _ROUNDING * solution.half_width
-    for name in ("left", "right", "centre_of_pressure", "peak_x", "max_shear_x", "von_mises_x", "tresca_x"):
+    least = _EXACT * float(np.ptp(covered(solution))) if solution.is_apart else ROUNDING * solution.half_width
+    for name in ("left", "right", "centre_of_pressure", "peak_x"):
         numbers[name] = 0.0 if abs(numbers[name]) < least else numbers[name]
-    for peaks in each.values():
-        peaks.update({words: peak._replace(x=0.0) for words, peak in peaks.items() if abs(peak.x) < least})
     return Row(control, solution, numbers, each, tuple(missing), None)
 
 
@@ -172,7 +168,7 @@ def largest_tresca(solution: Solution, of: Below) -> StressPeak:
             spread = np.ptp([*stress.principal(), stress.sigma_z(of.ratio or 0.0)], axis=0)
             row, column = np.unravel_index(np.argmax(spread), spread.shape)
             x, depth, reach = float(places[column]), float(depths[row]), 0.5 * reach
-        best.append(StressPeak(x, depth, float(spread[row, column])))
+        best.append(StressPeak(*placed([on], x, depth, float(spread[row, column]))))
     return max(best, key=lambda one: one.value)
 
 
@@ -307,7 +303,8 @@ def table(scene: Scene, rows: Sequence[Row], yield_stress: float | None) -> str:
     wide = max(map(len, columns[0]))
     for name, head in list(_TABLE.items())[loads:]:
         cells = _aligned([row.numbers[name] for row in rows])
-        if any(cell != "nan" for cell in cells) and wide + _CELL * len(columns) <= _WIDTH:
+        usual = {"nan", "0", "1"} if name == "contacts" else {"nan"}
+        if not usual.issuperset(cells) and wide + _CELL * len(columns) <= _WIDTH:
             columns.append([head, scene.units.get(NUMBERS[name][0], ""), *cells])
     lines = [scene.title, ""] if scene.title else []
     for words, error in zip(zip(*columns, strict=True), [None, None, *(row.error for row in rows)], strict=True):
@@ -321,9 +318,9 @@ def table(scene: Scene, rows: Sequence[Row], yield_stress: float | None) -> str:
 
 
 def _aligned(values: Sequence[float]) -> list[str]:
-    """Returns numbers of four or five digits, with equal decimals where their sizes allow it."""
+    """Returns numbers of four or five digits, with equal decimals where their sizes allow it; counts as they are."""
     sizes = [abs(value) for value in values if math.isfinite(value) and value != 0.0]
-    if not sizes or not 1e-2 < min(sizes) <= max(sizes) < min(1e6, 100.0 * min(sizes)):
+    if all(isinstance(value, int) for value in values if not math.isnan(value)) or not sizes or not 1e-2 < min(sizes) <= max(sizes) < min(1e6, 100.0 * min(sizes)):
         return [text if len(text := f"{value:.4g}") < _CELL else f"{value:.3g}" for value in values]
     decimals = max(0, 4 - math.floor(math.log10(max(sizes))))
     return [f"{value:.{decimals}f}" for value in values]

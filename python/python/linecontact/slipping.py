@@ -111,8 +111,7 @@ class PartialSlip:
         >>> round(slip.traction(edge) / slip.normal.pressure(edge), 12)
         0.4
         """
-        found: float | FloatArray = each(self._found.traction, x)
-        return found
+        return each(self._found.traction, x)
 
     def sample(self, count: int = 257) -> tuple[FloatArray, FloatArray]:
         """Returns places and tractions for drawing by straight lines.
@@ -182,10 +181,10 @@ class PartialSlip:
         """
         return Extremum(*self._found.max_tension(as_side(body, True)))
 
-    def plot(self, units: Sequence[str] = ("", "")) -> Figure:
+    def plot(self, units: Sequence[str] = ("", ""), figure: Figure | None = None) -> Figure:
         """Draws both bodies before loading, pressure and traction, and the shear in the lower body.
 
-        It is the picture of `Solution.plot`, which describes `units`. The shear in the upper body
+        It is the picture of `Solution.plot`, which describes the arguments. The shear in the upper body
         is that of the opposite force and tension.
 
         Examples
@@ -198,7 +197,7 @@ class PartialSlip:
         """
         from .drawing import plot
 
-        return plot(self.normal, units, self)
+        return plot(self.normal, units, figure, self)
 
 
 def slipped_again(contact: Contact, prescribed: Prescribed, acting: tuple[float, float, float]) -> PartialSlip:

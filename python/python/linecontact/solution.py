@@ -44,6 +44,9 @@ __all__ = [
     "Uncertainty",
 ]
 
+# Largest x that counts as 0, in half-widths: places of largest values have half of the digits.
+ROUNDING = 1e-7
+
 Prescribed = tuple[str, list[float], "References | None"]
 
 
@@ -337,6 +340,12 @@ def _plain(value: Any) -> Any:
     return float(value) if np.ndim(value) == 0 else value
 
 
+def placed(contacts: Sequence[Interval], x: float, *values: float) -> tuple[Any, ...]:
+    """Returns the place of a largest value, 0 if it is 0 to rounding beside the narrowest contact, and the values."""
+    width = min((on.half_width for on in contacts), default=0.0)
+    return x if abs(x) >= ROUNDING * width else 0.0, *values
+
+
 def _ratio(given: float) -> float:
     """Returns Poisson's ratio; refuses an impossible one."""
     ratio = as_number(given, "poisson_ratio")
@@ -395,8 +404,7 @@ class LoadRates:
     def pressure(self, x: Numbers) -> FloatArray: ...
     def pressure(self, x: float | Numbers) -> float | FloatArray:
         """Returns ∂P/∂F at fixed x, one over a length; zero outside the contacts."""
-        found: float | FloatArray = each(self._rates.pressure, x)
-        return found
+        return each(self._rates.pressure, x)
 
     def __repr__(self) -> str:
         return f"LoadRates(a={self.a!r}, b={self.b!r})"
@@ -634,8 +642,7 @@ class Solution:
 
         Its quadrature is independent of the solve.
         """
-        found: float | FloatArray = each(self._found.residual, x)
-        return found
+        return each(self._found.residual, x)
 
     # Pressure.
 
@@ -670,8 +677,7 @@ class Solution:
         >>> solution.pressure([[0.0, 0.1], [0.2, 0.3]]).shape
         (2, 2)
         """
-        found: float | FloatArray = each(self._found.pressure, x)
-        return found
+        return each(self._found.pressure, x)
 
     def pressure_estimate(self, x: float | Numbers) -> tuple[Any, Any]:
         """Returns pressures and their estimated errors: two pressures, or two arrays."""
@@ -702,7 +708,7 @@ class Solution:
         >>> round(solution.peak().pressure, 12)  # 2 F/(π L)
         0.063661977237
         """
-        return Peak(*self._found.peak())
+        return Peak(*placed(self.intervals, *self._found.peak()))
 
     @property
     def mean_pressure(self) -> float:
@@ -734,8 +740,9 @@ class Solution:
         """
 
         def region(on: Any, load: float, strengths: Any, peak: Any, *rest: Any) -> ContactRegion:
-            peak = None if peak is None else Peak(*peak)
-            return ContactRegion(Interval(*on), load, strengths, peak, *rest)
+            interval = Interval(*on)
+            peak = None if peak is None else Peak(*placed([interval], *peak))
+            return ContactRegion(interval, load, strengths, peak, *rest)
 
         return tuple(region(*found) for found in self._found.contacts())
 
@@ -759,8 +766,7 @@ class Solution:
         >>> solution.gap([0.1, 0.4]).round(6)
         array([0.      , 0.042943])
         """
-        found: float | FloatArray = each(self._found.gap, x)
-        return found
+        return each(self._found.gap, x)
 
     @overload
     def gap_slope(self, x: float) -> float: ...
@@ -768,8 +774,7 @@ class Solution:
     def gap_slope(self, x: Numbers) -> FloatArray: ...
     def gap_slope(self, x: float | Numbers) -> float | FloatArray:
         """Returns the derivative of this gap by x: no unit, zero in the contacts."""
-        found: float | FloatArray = each(self._found.gap_slope, x)
-        return found
+        return each(self._found.gap_slope, x)
 
     def stress(
         self, x: float | Numbers, depth: float | Numbers, *, body: Side | None = None, friction: float = 0.0
@@ -831,7 +836,7 @@ class Solution:
         (0.300283, 0.7862)
         """
         below = None if depths is None else as_range(depths, "depths")
-        return StressPeak(*self._found.max_shear(as_side(body), below, as_number(friction, "friction")))
+        return StressPeak(*placed(self.intervals, *self._found.max_shear(as_side(body), below, as_number(friction, "friction"))))
 
     def max_von_mises(
         self,
@@ -862,7 +867,7 @@ class Solution:
 
         side, below = as_side(body), None if depths is None else as_range(depths, "depths")
         ratio = ratio_below(self.contact, side, below) if poisson_ratio is None else as_number(poisson_ratio, "poisson_ratio")
-        return StressPeak(*self._found.max_von_mises(side, below, ratio, as_number(friction, "friction")))
+        return StressPeak(*placed(self.intervals, *self._found.max_von_mises(side, below, ratio, as_number(friction, "friction"))))
 
     def max_tension(self, *, body: Side | None = None, friction: float = 0.0) -> Extremum:
         """Returns the largest tension along the surface, the largest σ_x at depth 0, and its x.
@@ -915,8 +920,7 @@ class Solution:
         array([7.35 , 4.703, 2.752])
         """
         to, side = as_references(references), as_side(body, True)
-        found: float | FloatArray = each(lambda x: self._found.displacement(x, to, side), x)
-        return found
+        return each(lambda x: self._found.displacement(x, to, side), x)
 
     def stiffness(self, references: References) -> float:
         """Returns the stiffness dF/dδ, the derivative of the load by the approach: a pressure."""
@@ -948,7 +952,7 @@ class Solution:
             kappa,
             tilt,
             mean,
-            None if peak is None else Peak(*peak),
+            None if peak is None else Peak(*placed(self.intervals, *peak)),
             centre,
             self.edge_singularities,
             self.limits_error,
@@ -975,7 +979,7 @@ class Solution:
 
         return svg(self)
 
-    def plot(self, units: Sequence[str] = ("", "")) -> Figure:
+    def plot(self, units: Sequence[str] = ("", ""), figure: Figure | None = None) -> Figure:
         """Draws both bodies before loading, the pressure, and the shear below it.
 
         It needs matplotlib.
@@ -985,6 +989,9 @@ class Solution:
         units : (str, str), optional
             Names of the units of lengths and pressures, and of loads if there is a third, such as
             ("mm", "MPa", "N/mm"): shown at the axes, and in the title.
+        figure : matplotlib.figure.Figure, optional
+            Figure to draw in. Default: the current one of pyplot if it is empty, or else a new one,
+            which is then current, for `plt.savefig` and `plt.show`.
 
         Returns
         -------
@@ -999,7 +1006,7 @@ class Solution:
         """
         from .drawing import plot
 
-        return plot(self, units)
+        return plot(self, units, figure)
 
 
 def _solved_again(contact: Contact, prescribed: Prescribed) -> Solution:

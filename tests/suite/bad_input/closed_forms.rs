@@ -133,7 +133,7 @@ fn ranges_of_bodies() {
             || Ok(body_of(&form, from, to).map(|_| ())?),
             |wrong| {
                 matches!(wrong, Wrong::Breakpoint(PiecewiseError::InPiece {
-                    piece: 0, source: ProfileError::Domain { from: f, to: t },
+                    piece: 1, source: ProfileError::Domain { from: f, to: t },
                 }) if same(*f, from) && same(*t, to))
             },
         );

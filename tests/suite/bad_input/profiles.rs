@@ -39,7 +39,7 @@ fn bodies() {
         table.row(&name, 0, || Ok(Piece::checked(&*curve(domain, by_cubic)).map(|_| ())?), checked);
         table.row(&name, 0, || Ok(Piece::new(&*curve(domain, by_cubic)).map(|_| ())?), checked);
         let joined = |wrong: &Wrong| {
-            matches!(wrong, Wrong::Breakpoint(PiecewiseError::InPiece { piece: 1, source })
+            matches!(wrong, Wrong::Breakpoint(PiecewiseError::InPiece { piece: 2, source })
                 if wanted(source))
         };
         let pieces = vec![curve([-2.0, -1.0], by_cubic), curve(domain, by_cubic)];
@@ -188,7 +188,7 @@ fn breakpoints() {
         matches!(
             error,
             PiecewiseError::InPiece {
-                piece: 1,
+                piece: 2,
                 source: ProfileError::NotFinite { quantity: "Y", k: 0.0, .. }
             }
         )
@@ -197,7 +197,7 @@ fn breakpoints() {
         matches!(
             error,
             PiecewiseError::InPiece {
-                piece: 1,
+                piece: 2,
                 source: ProfileError::NotFinite { quantity: "Y", k: 0.0, .. }
             }
         )
