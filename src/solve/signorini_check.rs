@@ -9,7 +9,6 @@
 mod beside;
 mod outside;
 mod passed;
-mod step;
 
 use super::exterior_field::{ExteriorField, ExteriorFields, POINTS};
 use crate::gap::{Cost, Gap};
@@ -20,7 +19,6 @@ use crate::{Ends, Extremum, Fallible, Interval, Real, Side};
 pub(super) use outside::Overlaps;
 pub(super) use passed::{Passed, Under};
 use std::cmp::Ordering;
-pub(super) use step::step_of_heights;
 
 /// Largest number of places with tension whose uncertainty is estimated.
 const MAX_DOUBTFUL: usize = 256;

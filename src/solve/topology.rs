@@ -18,7 +18,6 @@ use super::active_set::FIRST_CELLS;
 use super::edges::{Conditions, Given};
 use super::fault::Fault;
 use super::newton::several::{self, Besides, NewtonSeveral, put};
-use super::signorini_check::step_of_heights;
 use super::single_contact::Single;
 use super::{Contact, Work, settle};
 use crate::gap::{Asked, Sampler, Survey};
@@ -44,14 +43,7 @@ pub(super) fn find<T: Real>(
     contact.checked_edges()?;
     work.workspace.look_for_features(&contact.gap);
     let mut search = Search::new(contact, conditions, work);
-    let found = settle(&mut search).or_else(|error| search.explain(error));
-    found.map_err(|error| match error {
-        // A step of the heights that no slope shows is not a crest that could be pressed flat.
-        ContactError::Solve(SolveError::Overlap { x, interval, .. }) => {
-            step_of_heights(&contact.gap, interval, x).unwrap_or(error)
-        }
-        _ => error,
-    })
+    settle(&mut search).or_else(|error| search.explain(error))
 }
 
 /// Search for the contacts.
