@@ -3,7 +3,7 @@
 use super::stress::Stress;
 use super::{Certificate, Conformity, Extremum, Peak, Solution};
 use crate::rounded::{DIGITS, Rounded, within};
-use crate::{ContactError, Cost, Estimate, EvaluationError, Real, Side};
+use crate::{ContactError, Estimate, EvaluationError, Real, Side};
 use std::fmt::{Display, Formatter, Result};
 
 fn rounded<T: Real>(value: T, f: &Formatter<'_>) -> Rounded {
@@ -48,7 +48,7 @@ impl<T: Real> Display for Solution<'_, T> {
         let (hull, peak) = (self.hull(), self.peak());
         let at = |x: T| within(place(x, hull.right - hull.left), &hull, digits);
         match peak {
-            Ok(Peak { x, pressure }) => {
+            Ok(Peak { x, pressure, .. }) => {
                 write!(f, ", largest pressure {} at x = {}", rounded(pressure, f), at(x))?;
             }
             Err(ContactError::Evaluation(EvaluationError::Singular { x })) => {
@@ -82,9 +82,7 @@ impl<T: Real> Solution<'_, T> {
     fn warn(&self, peak: Option<Peak<T>>, f: &mut Formatter<'_>) -> Result {
         let (hull, found, digits) = (self.hull(), &self.found, f.precision().unwrap_or(DIGITS));
         let at = |x: T| within(place(x, hull.right - hull.left), &hull, digits);
-        if let Some(Peak { x, pressure }) = peak
-            && let Ok(all) = self.pressure()
-            && let Ok(Estimate { error, .. }) = all.estimate(x, &mut Cost::default())
+        if let Some(Peak { x, pressure, error }) = peak
             && error > T::of(UNCERTAIN) * pressure
         {
             let [error, x] = [Rounded(error.to_subset_unchecked(), 2), at(x)];

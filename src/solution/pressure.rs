@@ -220,10 +220,20 @@ impl<T: Real> Pressure<'_, T> {
                 false => Ok(Estimate { value: T::zero(), error: T::zero() }),
             };
         };
-        let mut estimate = self.integrator.estimate(self.gap, &self.load_case, x, cost)?;
+        let estimate = self.integrator.estimate(self.gap, &self.load_case, x, cost)?;
         if !estimate.value.is_finite() {
             return Err(EvaluationError::Singular { x }.into());
         }
+        Ok(self.with_limits(on, x, estimate))
+    }
+
+    /// Adds the effect of the error of the limits to the error of a pressure in a contact.
+    pub(super) fn with_limits(
+        &self,
+        on: Interval<T>,
+        x: T,
+        mut estimate: Estimate<T>,
+    ) -> Estimate<T> {
         // If the limits move, P changes as under the load that would move them, by 1/(π w) for each
         // unit of it. The load is given, so the change is of second order, except at points so
         // close to an edge that they might lie on its other side.
@@ -237,7 +247,7 @@ impl<T: Real> Pressure<'_, T> {
             let share = self.on.half_width() / distance;
             estimate.error += T::of(0.5) * held * share * share.sqrt();
         }
-        Ok(estimate)
+        estimate
     }
 
     /// Returns the Cauchy transform of the pressure.

@@ -20,7 +20,7 @@ fn intervals_and_numbers() {
     assert_eq!(cost.to_string(), all);
     let estimate = Estimate { value: 0.1 + 0.2, error: 4.44e-17 };
     assert_eq!(estimate.to_string(), "0.30000000000000004 ± 4.4e-17");
-    let peak = Peak { x: 0.0, pressure: 1234567.8f32 };
+    let peak = Peak { x: 0.0, pressure: 1234567.8f32, error: 0.1 };
     assert_eq!(format!("{peak} {peak:.2}"), "1.23457e6 at x = 0 1.2e6 at x = 0");
     let least = Extremum { x: f64::INFINITY, value: 0.000_999_999_99 };
     assert_eq!(least.to_string(), "0.001 at x = inf");

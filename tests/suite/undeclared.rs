@@ -54,8 +54,11 @@ fn peak_of(body: common::Profile, load: f64) -> (f64, f64, String) {
     let solution = contact.solve(Control::Load(load)).unwrap();
     let peak = solution.peak().unwrap();
     let all = solution.pressure().unwrap();
-    let error = all.estimate(peak.x, &mut Cost::default()).unwrap().error;
-    (peak.pressure, error, solution.to_string())
+    let estimate = all.estimate(peak.x, &mut Cost::default()).unwrap();
+    assert_eq!((peak.pressure, peak.error), (estimate.value, estimate.error));
+    assert_eq!(solution.contacts().unwrap()[0].peak, Some(peak));
+    assert_eq!(solution.summary().unwrap().peak, Some(peak));
+    (peak.pressure, peak.error, solution.to_string())
 }
 
 /// Next to its tip the slope of such a body changes as much from 1e-200 to 1e-100 as from 1e-100
