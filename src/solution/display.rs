@@ -2,7 +2,7 @@
 
 use super::stress::Stress;
 use super::{Certificate, Conformity, Extremum, Peak, Solution};
-use crate::rounded::{DIGITS, Rounded, within};
+use crate::rounded::{DIGITS, Rounded, is_far, within};
 use crate::{ContactError, Estimate, EvaluationError, Real, Side};
 use std::fmt::{Display, Formatter, Result};
 
@@ -85,9 +85,14 @@ impl<T: Real> Solution<'_, T> {
         if let Some(Peak { x, pressure, error }) = peak
             && error > T::of(UNCERTAIN) * pressure
         {
-            let [error, x] = [Rounded(error.to_subset_unchecked(), 2), at(x)];
-            write!(f, "\nthe largest pressure is uncertain by {error}: ")?;
-            write!(f, "is a corner at x = {x} no breakpoint, or the quadrature coarse?")?;
+            let why = match is_far(x, hull.half_width()) {
+                true => "x has too few digits: move the origin to the contact".into(),
+                false => {
+                    format!("is a corner at x = {} no breakpoint, or the quadrature coarse?", at(x))
+                }
+            };
+            let error = Rounded(error.to_subset_unchecked(), 2);
+            write!(f, "\nthe largest pressure is uncertain by {error}: {why}")?;
         }
         if self.has_default_stiffness {
             f.write_str("\nκ is 1, as no modulus and no materials were given")?;

@@ -67,16 +67,22 @@ fn places_far_from_the_origin_are_told_apart() {
         (1e6, "contact [999999.764717, 1.00000023528e6]"),
         (1e9, "contact [9.99999999764717e8, 1.00000000023528e9]"),
     ];
-    for (origin, expected) in cases {
+    let text = |origin: f64| {
         let body = Curve::new([origin - 1.0, origin + 1.0], |k: f64| {
             let x = k - origin;
             CurvePoint { x: k, y: 0.05 * x * x, dx: 1.0, dy: 0.1 * x }
         });
         let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115e3);
-        let text = contact.solve(Control::Load(500.0)).unwrap().to_string();
+        contact.solve(Control::Load(500.0)).unwrap().to_string()
+    };
+    for (origin, expected) in cases {
+        let text = text(origin);
         let lines: Vec<_> = text.lines().collect();
         assert!(lines.len() == 3 && lines[0] == expected, "{text}");
     }
+    // No corner and no quadrature is to blame where the digits of x end.
+    let far = text(1e13);
+    assert!(far.ends_with("x has too few digits: move the origin to the contact"), "{far}");
 }
 
 /// A pad bears a little on the walls at its ends: they are no wrong unit.
