@@ -443,11 +443,16 @@ impl<T: Real> PanelSet<T> {
     }
 
     /// Raises the errors of two neighbours to their mismatch if only a loose tolerance accepts it:
-    /// a feature lies between their last nodes.
+    /// a feature lies between their last nodes. Likewise if only the noise does, or they are too
+    /// short to be halved: a tip, whose slope rises about as much in each of the halvings to come.
     fn own_up_to(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
         let missed = (left.at_ends()[1] - right.at_ends()[0]).abs();
         let is_explained = missed <= T::of(16.0) * (left.error + right.error);
-        if self.is_loose() && !is_explained && self.meets(left, right, allowed) {
+        let rise = |panel: &Panel<T>| (panel.at_ends()[1] - panel.at_ends()[0]).abs();
+        let is_jump = missed > T::count(MAX_AT_JUMP) * rise(left).max(rise(right));
+        let is_accepted = self.is_loose() && self.meets(left, right, allowed)
+            || !is_jump && !self.meets(left, right, T::zero());
+        if is_accepted && !is_explained {
             left.error = left.error.max(missed);
             right.error = right.error.max(missed);
         }
