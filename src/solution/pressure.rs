@@ -136,8 +136,7 @@ impl<T: Real> Pressure<'_, T> {
         // No early exit from the loops, for speed.
         if x.iter().fold(true, |all, &x| all & self.on.contains(x)) {
             self.integrator.pressures(self.gap, &self.load_case, x, pressures, cost)?;
-            let finite = |pressure: &T| pressure.is_finite();
-            if pressures.iter().fold(true, |all, pressure| all & finite(pressure)) {
+            if pressures.iter().fold(true, |all, pressure| all & pressure.is_finite()) {
                 return Ok(());
             }
         }
@@ -203,6 +202,14 @@ impl<T: Real> Pressure<'_, T> {
     /// As [`at`](Self::at), without [`EvaluationError::Unresolved`].
     pub fn estimate(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
         T::estimate(self, x, cost)
+    }
+
+    /// Returns `P(x)` with its estimated error, as [`estimate`](Self::estimate) does, uncounted.
+    ///
+    /// # Errors
+    /// As [`estimate`](Self::estimate).
+    pub fn with_error(&self, x: T) -> Result<Estimate<T>, ContactError<T>> {
+        self.estimate(x, &mut Cost::default())
     }
 
     pub(crate) fn estimated(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
@@ -285,9 +292,8 @@ impl<T: Real> Density<T> for Pressure<'_, T> {
 
 impl<T: Real> std::fmt::Debug for Pressure<'_, T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { on, load_case, cost, .. } = self;
         let mut debug = f.debug_struct("Pressure");
-        debug.field("on", on).field("load_case", load_case);
-        debug.field("cost", cost).finish_non_exhaustive()
+        debug.field("on", &self.on).field("load_case", &self.load_case);
+        debug.field("cost", &self.cost).finish_non_exhaustive()
     }
 }
