@@ -16,7 +16,7 @@ const FALL_OF_A_SQUARE_ROOT: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 /// Length of a panel, in units in the last place of x, on which their rounding explains some of
 /// what its series misses.
-const FEW_ULPS: f64 = 1024.0;
+pub(super) const FEW_ULPS: f64 = 1024.0;
 
 /// Share of the error that a half may keep if halving is to go on beyond [`MAX_AT_JUMP`]: next to a
 /// root of high order, as in the slope of `|x|^(11/10)`, the pressure still depends on the rest.
