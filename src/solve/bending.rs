@@ -44,8 +44,8 @@ const LEAST_GROWTH: f64 = 1.005;
 /// Least part of a correction that is tried.
 const LEAST_PART: f64 = 1.0 / 64.0;
 
-/// Parts of corrections in each contact of a row, beyond which the gaps are too narrow to go on: each
-/// part adds pressures whose bend is summed, and up to there gaps of 2 % are found.
+/// Parts of corrections in each contact of a row, beyond which its gaps are too narrow to go on:
+/// each part adds pressures whose bend is summed, and up to there gaps of 2 % are found.
 const MOST_MIXED: usize = 8;
 
 /// Largest half-width of the contacts by the thickness of a layer: the cost grows with the square.
