@@ -9,9 +9,7 @@
 mod drawing;
 
 use drawing::{BLACK, BLUE, Grid, Panel, Points, RED, tint};
-use linecontact::{
-    Contact, ContactError, Control, Cost, Curve, CurvePoint, ParametricProfile, Solution,
-};
+use linecontact::{Contact, ContactError, Control, Curve, CurvePoint, ParametricProfile, Solution};
 use std::error::Error;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -35,7 +33,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let (a, b) = (solution.a(), solution.b());
     let (peak, pressure) = (solution.peak()?, solution.pressure()?);
     let limits_error = solution.limits_error().unwrap_or(0.0);
-    let peak_error = pressure.estimate(peak.x, &mut Cost::default())?.error / peak.pressure;
+    let peak_error = peak.error / peak.pressure;
     let lines = [
         format!("contact from {:.6} to {a:.6} mm", -b),
         format!("largest pressure {:.3} MPa", peak.pressure),

@@ -194,11 +194,11 @@ pub struct LoadCase<T> {
 ///
 /// ```
 /// use linecontact::profile::Parabola;
-/// use linecontact::{Contact, Control, Cost, Flat};
+/// use linecontact::{Contact, Control, Flat};
 ///
 /// let body = Parabola::new(1.0f64, [-1.0, 1.0])?;
 /// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
-/// let estimate = solution.pressure()?.estimate(0.1, &mut Cost::default())?;
+/// let estimate = solution.pressure()?.with_error(0.1)?;
 /// println!("{estimate}"); // the value ± its error
 /// let exact = (0.04f64 - 0.01).sqrt() / std::f64::consts::PI; // κ/(π R) sqrt(L² - x²)
 /// assert!(estimate.error < 1e-14 && (estimate.value - exact).abs() < 1e-15);

@@ -70,6 +70,15 @@ impl Display for Span {
     }
 }
 
+/// Share of a half-width in the rounding of x from which on no contact can be found, as its limits
+/// have an error of a few roundings.
+const LOST: f64 = 1e-3;
+
+/// Tells whether the rounding of x is the error of a contact.
+pub(crate) fn is_far<T: Real>(near: T, half_width: T) -> bool {
+    T::epsilon() * near.abs() > T::of(LOST) * half_width
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

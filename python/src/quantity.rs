@@ -29,6 +29,7 @@ quantities! {
     "mean_pressure" MeanPressure
     "peak_pressure" PeakPressure
     "peak_x" PeakX
+    "peak_error" PeakError
     "moment" Moment
     "centre_of_pressure" CentreOfPressure
     "max_shear" MaxShear
@@ -64,9 +65,10 @@ impl Quantity {
                 "is the place of a largest value"
             }
             Self::Contacts | Self::IsChecked | Self::Evaluations => "does not change smoothly",
-            Self::LimitsError | Self::HalfWidthDeviation | Self::PeakPressureDeviation => {
-                "is an estimate"
-            }
+            Self::PeakError
+            | Self::LimitsError
+            | Self::HalfWidthDeviation
+            | Self::PeakPressureDeviation => "is an estimate",
             _ => return Ok(found),
         };
         Err(PyValueError::new_err(format!("{name} {why}: it has no derivative here")))
@@ -135,6 +137,7 @@ impl<'s, T: Real> Asked<'s, T> {
             Quantity::MeanPressure => solution.mean_pressure(),
             Quantity::PeakPressure => self.peak()?.pressure,
             Quantity::PeakX => self.peak()?.x,
+            Quantity::PeakError => self.peak()?.error,
             Quantity::Moment => solution.moment()?,
             // Bodies that lift off in a sweep are no failure.
             Quantity::CentreOfPressure if solution.is_apart() => nan,

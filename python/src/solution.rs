@@ -13,6 +13,13 @@ use std::fmt::Debug;
 
 type Pair = (f64, f64);
 
+/// Abscissa, pressure and its error.
+type Top = (f64, f64, f64);
+
+fn top(Peak { x, pressure, error }: Peak<f64>) -> Top {
+    (x, pressure, error)
+}
+
 /// Takes zero for the gap, or its slope, at a place in a contact.
 fn or_zero(found: Result<f64, ContactError<f64>>) -> Result<f64, ContactError<f64>> {
     match found {
@@ -50,10 +57,10 @@ fn name(variant: impl Debug) -> String {
 pub struct Solution(pub linecontact::Solution<'static, f64>);
 
 /// Interval, load, strengths, peak, moment, centre of pressure, and flags: held at corners.
-type Region = (Pair, f64, Pair, Option<Pair>, f64, Option<f64>, (bool, bool));
+type Region = (Pair, f64, Pair, Option<Top>, f64, Option<f64>, (bool, bool));
 
 /// Intervals, load, loads, κ, tilt, mean pressure, peak and centre of pressure.
-type Row = (Vec<Pair>, f64, Vec<f64>, f64, f64, f64, Option<Pair>, Option<f64>);
+type Row = (Vec<Pair>, f64, Vec<f64>, f64, f64, f64, Option<Top>, Option<f64>);
 
 /// Least ratio of pressures, least gap, spacing and cost.
 type Proof = (Option<Pair>, Option<Pair>, f64, Counts, bool);
@@ -236,9 +243,8 @@ impl Solution {
         Ok((call::array(py, x), call::array(py, pressures)))
     }
 
-    fn peak(&self, py: Python<'_>) -> PyResult<Pair> {
-        let Peak { x, pressure } = call::library(py, || self.0.peak())?;
-        Ok((x, pressure))
+    fn peak(&self, py: Python<'_>) -> PyResult<Top> {
+        call::library(py, || self.0.peak()).map(top)
     }
 
     #[getter]
@@ -255,7 +261,7 @@ impl Solution {
         let contacts = call::library(py, || self.0.contacts())?;
         let region = |contact: &linecontact::ContactRegion<f64>| {
             let Ends { left, right } = contact.edge_singularities;
-            let peak = contact.peak.map(|peak| (peak.x, peak.pressure));
+            let peak = contact.peak.map(top);
             let centre = contact.centre_of_pressure().ok();
             let held = (contact.held.left, contact.held.right);
             let (strengths, moment) = ((left, right), contact.moment());
@@ -369,7 +375,7 @@ impl Solution {
     fn summary(&self, py: Python<'_>) -> PyResult<Row> {
         let row = call::library(py, || self.0.summary())?;
         let intervals = row.intervals.iter().map(pair).collect();
-        let peak = row.peak.map(|peak| (peak.x, peak.pressure));
+        let peak = row.peak.map(top);
         let (kappa, mean, centre) = (row.kappa, row.mean_pressure, row.centre_of_pressure);
         Ok((intervals, row.load, row.loads, kappa, row.tilt, mean, peak, centre))
     }

@@ -35,7 +35,7 @@ def test_no_load_is_an_answer(solve: Callable[..., lc.Solution]) -> None:
         assert solution.is_apart and solution.separation == separation and solution.is_checked
         assert solution.intervals == () and solution.contacts() == () and solution.attempts[-1][1] == "apart"
         assert (solution.load, solution.a, solution.b, solution.half_width) == (0.0, 0.0, 0.0, 0.0)
-        assert solution.pressure([-0.5, 0.0]).tolist() == [0.0, 0.0] and solution.peak() == (0.0, 0.0)
+        assert solution.pressure([-0.5, 0.0]).tolist() == [0.0, 0.0] and solution.peak() == (0.0, 0.0, 0.0)
         assert solution.gap(0.5) == pytest.approx(separation + 10.0 - 99.75**0.5, abs=1e-15)
         assert solution.stiffness(TO) == 0.0 and solution.approach(TO).bodies == -separation
         assert solution.certify().is_proved

@@ -43,6 +43,7 @@ def of_one(solution: lc.Solution) -> dict[str, float]:
         "mean_pressure": solution.mean_pressure,
         "peak_pressure": peak.pressure,
         "peak_x": peak.x,
+        "peak_error": peak.error,
         "moment": solution.moment,
         "centre_of_pressure": solution.centre_of_pressure,
         "max_shear": shear.value,

@@ -1,6 +1,6 @@
 //! Remedies in the texts of errors.
 
-use crate::rounded::{Rounded, apart, six, span};
+use crate::rounded::{Rounded, apart, is_far, six, span};
 use crate::{Body, Real};
 
 /// Tells whether a number is so small that it has fewer digits than others.
@@ -66,13 +66,9 @@ pub(super) fn along<T: Real>([from, to]: [T; 2]) -> String {
 pub(super) const SEVERAL: &str = "change what is given a little, declare kinks as breakpoints, smooth measured points \
     (Fit::smooth); with adhesion, single_interval, or a search or quadrature of your own only one contact is sought";
 
-/// Share of a half-width in the rounding of x from which on no contact can be found, as its limits
-/// have an error of a few roundings.
-const LOST: f64 = 1e-3;
-
 /// Returns the remedy where no contact of a half-width is in balance.
 pub(super) fn how_to_balance<T: Real>(near: T, half_width: T) -> String {
-    match T::epsilon() * near.abs() > T::of(LOST) * half_width {
+    match is_far(near, half_width) {
         true => "x is too far from 0 to have digits for it: move the origin to the contact".into(),
         false => format!("{SEVERAL}, or give a start"),
     }

@@ -71,8 +71,8 @@ pub enum SolveError<T: Real> {
     /// The slope difference of the bodies nowhere goes from negative to positive, so that
     /// they do not open on both sides of a point of first contact.
     #[error(
-        "no point of first contact: the slope f₂' - f₁' is {} at x = {} and {} at x = {}, but a \
-         gap falls on its left and rises on its right; {}",
+        "no point of first contact: the slope of the gap is {} at x = {} and {} at x = {}, but a gap falls on its left \
+         and rises on its right; {}",
         six(slope[0]), place(x[0]), six(slope[1]), place(x[1]), how_to_touch(*slope)
     )]
     NoFirstContact {
@@ -276,9 +276,10 @@ pub enum SolveError<T: Real> {
     },
     /// The certificate has spent its budget, or the limits are too doubtful for one.
     #[error(
-        "whether the solution is the contact is not decided after {evaluations} evaluations and {samples} samples: at \
-         x = {x} it would take more, or limits with smaller errors; narrow the domains, declare breakpoints, or solve \
-         with a smaller tolerance", x = six(*x)
+        "whether the solution is the contact is not decided at x = {x}, {}; narrow the domains, declare breakpoints, \
+         solve with a smaller tolerance, or move the origin to the contact if it is far away",
+        if *samples > 0 { format!("after {evaluations} evaluations and {samples} samples") } else { "as the limits have too large errors".into() },
+        x = six(*x)
     )]
     Undecided {
         /// Abscissa at which the certificate has stopped.

@@ -2,8 +2,8 @@
 
 use super::stress::Stress;
 use super::{Certificate, Conformity, Extremum, Peak, Solution};
-use crate::rounded::{DIGITS, Rounded, within};
-use crate::{ContactError, Cost, Estimate, EvaluationError, Real, Side};
+use crate::rounded::{DIGITS, Rounded, is_far, within};
+use crate::{ContactError, Estimate, EvaluationError, Real, Side};
 use std::fmt::{Display, Formatter, Result};
 
 fn rounded<T: Real>(value: T, f: &Formatter<'_>) -> Rounded {
@@ -48,7 +48,7 @@ impl<T: Real> Display for Solution<'_, T> {
         let (hull, peak) = (self.hull(), self.peak());
         let at = |x: T| within(place(x, hull.right - hull.left), &hull, digits);
         match peak {
-            Ok(Peak { x, pressure }) => {
+            Ok(Peak { x, pressure, .. }) => {
                 write!(f, ", largest pressure {} at x = {}", rounded(pressure, f), at(x))?;
             }
             Err(ContactError::Evaluation(EvaluationError::Singular { x })) => {
@@ -82,14 +82,17 @@ impl<T: Real> Solution<'_, T> {
     fn warn(&self, peak: Option<Peak<T>>, f: &mut Formatter<'_>) -> Result {
         let (hull, found, digits) = (self.hull(), &self.found, f.precision().unwrap_or(DIGITS));
         let at = |x: T| within(place(x, hull.right - hull.left), &hull, digits);
-        if let Some(Peak { x, pressure }) = peak
-            && let Ok(all) = self.pressure()
-            && let Ok(Estimate { error, .. }) = all.estimate(x, &mut Cost::default())
+        if let Some(Peak { x, pressure, error }) = peak
             && error > T::of(UNCERTAIN) * pressure
         {
-            let [error, x] = [Rounded(error.to_subset_unchecked(), 2), at(x)];
-            write!(f, "\nthe largest pressure is uncertain by {error}: ")?;
-            write!(f, "is a corner at x = {x} no breakpoint, or the quadrature coarse?")?;
+            let why = match is_far(x, hull.half_width()) {
+                true => "x has too few digits: move the origin to the contact".into(),
+                false => {
+                    format!("is a corner at x = {} no breakpoint, or the quadrature coarse?", at(x))
+                }
+            };
+            let error = Rounded(error.to_subset_unchecked(), 2);
+            write!(f, "\nthe largest pressure is uncertain by {error}: {why}")?;
         }
         if self.has_default_stiffness {
             f.write_str("\nκ is 1, as no modulus and no materials were given")?;

@@ -16,7 +16,7 @@ impl<T: Real> Solution<'_, T> {
     }
 
     /// Returns the interval from the first limit to the last, `[-b, a]`: the contact, if there is
-    /// only one.
+    /// only one, and [`half_width`](Interval::half_width) is its half-width L.
     pub fn hull(&self) -> Interval<T> {
         self.found.interval
     }

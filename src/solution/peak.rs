@@ -1,6 +1,6 @@
 //! Largest pressure of a contact.
 
-use super::{ContactState, LoadRates, Solution, Solved};
+use super::{ContactState, LoadRates, Pressure, Solution, Solved};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::{Engine, Estimate, LoadCase};
 use crate::{ContactError, EvaluationError, Interval, Real};
@@ -29,7 +29,8 @@ const PARTS: usize = 17;
 /// let solution = Contact::new(&Flat, &body)?.solve(Control::Load(0.02))?;
 /// let peak = solution.peak()?;
 /// assert!(peak.x.abs() < 1e-6);
-/// assert!((peak.pressure / (0.04 / (0.2 * std::f64::consts::PI)) - 1.0).abs() < 1e-14); // 2F/(πL)
+/// let exact = 0.04 / (0.2 * std::f64::consts::PI); // 2F/(πL)
+/// assert!((peak.pressure - exact).abs() < 1e-15 && peak.error < 1e-14 * exact);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +40,15 @@ pub struct Peak<T> {
     pub x: T,
     /// Largest pressure.
     pub pressure: T,
+    /// Estimated absolute error of the pressure: more than its rounding where the quadrature is
+    /// coarse, or next to a corner that is no breakpoint.
+    pub error: T,
+}
+
+impl<T> Peak<T> {
+    pub(super) fn new(x: T, Estimate { value: pressure, error }: Estimate<T>) -> Self {
+        Self { x, pressure, error }
+    }
 }
 
 impl<T: Real> Solution<'_, T> {
@@ -65,11 +75,13 @@ impl<T: Real> Solution<'_, T> {
 impl<T: Real> Solved<'_, T> {
     pub fn peak(&self) -> Result<Peak<T>, ContactError<T>> {
         if self.found.apart.is_some() {
-            return Ok(Peak { x: self.found.interval.left, pressure: T::zero() });
+            let none = Estimate { value: T::zero(), error: T::zero() };
+            return Ok(Peak::new(self.found.interval.left, none));
         }
-        self.integrator.complete(self.gap)?;
+        let pressure = Pressure::new(*self)?;
         let (x, top) = self.largest_pressure(&mut Cost::default())?;
-        Ok(Peak { x, pressure: top.value })
+        let on = Interval::find(self.contacts(), x).1.unwrap_or(self.found.interval);
+        Ok(Peak::new(x, pressure.with_limits(on, x, top)))
     }
 
     /// Finds the largest pressure of all contacts: its place and value.

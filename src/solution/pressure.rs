@@ -136,8 +136,7 @@ impl<T: Real> Pressure<'_, T> {
         // No early exit from the loops, for speed.
         if x.iter().fold(true, |all, &x| all & self.on.contains(x)) {
             self.integrator.pressures(self.gap, &self.load_case, x, pressures, cost)?;
-            let finite = |pressure: &T| pressure.is_finite();
-            if pressures.iter().fold(true, |all, pressure| all & finite(pressure)) {
+            if pressures.iter().fold(true, |all, pressure| all & pressure.is_finite()) {
                 return Ok(());
             }
         }
@@ -205,6 +204,14 @@ impl<T: Real> Pressure<'_, T> {
         T::estimate(self, x, cost)
     }
 
+    /// Returns `P(x)` with its estimated error, as [`estimate`](Self::estimate) does, uncounted.
+    ///
+    /// # Errors
+    /// As [`estimate`](Self::estimate).
+    pub fn with_error(&self, x: T) -> Result<Estimate<T>, ContactError<T>> {
+        self.estimate(x, &mut Cost::default())
+    }
+
     pub(crate) fn estimated(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
         let (x, range) = (self.gap.folded(x), self.gap.range());
         if !(x >= range[0] && x <= range[1]) {
@@ -220,10 +227,20 @@ impl<T: Real> Pressure<'_, T> {
                 false => Ok(Estimate { value: T::zero(), error: T::zero() }),
             };
         };
-        let mut estimate = self.integrator.estimate(self.gap, &self.load_case, x, cost)?;
+        let estimate = self.integrator.estimate(self.gap, &self.load_case, x, cost)?;
         if !estimate.value.is_finite() {
             return Err(EvaluationError::Singular { x }.into());
         }
+        Ok(self.with_limits(on, x, estimate))
+    }
+
+    /// Adds the effect of the error of the limits to the error of a pressure in a contact.
+    pub(super) fn with_limits(
+        &self,
+        on: Interval<T>,
+        x: T,
+        mut estimate: Estimate<T>,
+    ) -> Estimate<T> {
         // If the limits move, P changes as under the load that would move them, by 1/(π w) for each
         // unit of it. The load is given, so the change is of second order, except at points so
         // close to an edge that they might lie on its other side.
@@ -237,7 +254,7 @@ impl<T: Real> Pressure<'_, T> {
             let share = self.on.half_width() / distance;
             estimate.error += T::of(0.5) * held * share * share.sqrt();
         }
-        Ok(estimate)
+        estimate
     }
 
     /// Returns the Cauchy transform of the pressure.
@@ -275,9 +292,8 @@ impl<T: Real> Density<T> for Pressure<'_, T> {
 
 impl<T: Real> std::fmt::Debug for Pressure<'_, T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { on, load_case, cost, .. } = self;
         let mut debug = f.debug_struct("Pressure");
-        debug.field("on", on).field("load_case", load_case);
-        debug.field("cost", cost).finish_non_exhaustive()
+        debug.field("on", &self.on).field("load_case", &self.load_case);
+        debug.field("cost", &self.cost).finish_non_exhaustive()
     }
 }

@@ -110,7 +110,7 @@ impl<T: Real> Solved<'_, T> {
             let both = |distance: T, strength: T| [strength, -(distance / half_width) * strength];
             let [load, turning] = integrals.over_one(i, interval.centre(), both)?;
             let peak = match self.peak_in(i, &mut Cost::default()) {
-                Ok((x, top)) => Some(Peak { x, pressure: top.value }),
+                Ok((x, top)) => Some(Peak::new(x, integrals.density.with_limits(interval, x, top))),
                 Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => None,
                 Err(error) => return Err(error),
             };

@@ -44,6 +44,10 @@ const LEAST_GROWTH: f64 = 1.005;
 /// Least part of a correction that is tried.
 const LEAST_PART: f64 = 1.0 / 64.0;
 
+/// Parts of corrections in each contact of a row, beyond which its gaps are too narrow to go on:
+/// each part adds pressures whose bend is summed, and up to there gaps of 2 % are found.
+const MOST_MIXED: usize = 8;
+
 /// Largest half-width of the contacts by the thickness of a layer: the cost grows with the square.
 const THINNEST: f64 = 100.0;
 
@@ -119,6 +123,9 @@ pub(super) fn find<'b, T: Real>(
             } else {
                 (work.workspace.spreads, growth) = (last, growth.sqrt());
             }
+        }
+        if let Err(ContactError::Solve(SolveError::CompleteContact { load: of, .. })) = &mut found {
+            *of = load;
         }
     }
     match (found, control) {
@@ -328,6 +335,14 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     fn recover(&mut self, error: ContactError<T>) -> Fallible<T, ()> {
         if ends(&error) || self.spreads.is_empty() && self.bears_nothing(&error)? {
             return Err(error);
+        }
+        let is_mixed = self.from.len() > MOST_MIXED * merged(&self.from).len();
+        if self.fills(&error) && (is_mixed || !self.has_cells) {
+            let full = self.complete()?;
+            let is_over = matches!(full, ContactError::Solve(SolveError::CompleteContact { load, complete }) if load > complete);
+            if is_over || self.has_cells {
+                return Err(full);
+            }
         }
         self.is_checked = true;
         if self.has_converged && self.may_be_one {

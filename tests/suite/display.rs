@@ -20,7 +20,7 @@ fn intervals_and_numbers() {
     assert_eq!(cost.to_string(), all);
     let estimate = Estimate { value: 0.1 + 0.2, error: 4.44e-17 };
     assert_eq!(estimate.to_string(), "0.30000000000000004 ± 4.4e-17");
-    let peak = Peak { x: 0.0, pressure: 1234567.8f32 };
+    let peak = Peak { x: 0.0, pressure: 1234567.8f32, error: 0.1 };
     assert_eq!(format!("{peak} {peak:.2}"), "1.23457e6 at x = 0 1.2e6 at x = 0");
     let least = Extremum { x: f64::INFINITY, value: 0.000_999_999_99 };
     assert_eq!(least.to_string(), "0.001 at x = inf");
@@ -67,16 +67,22 @@ fn places_far_from_the_origin_are_told_apart() {
         (1e6, "contact [999999.764717, 1.00000023528e6]"),
         (1e9, "contact [9.99999999764717e8, 1.00000000023528e9]"),
     ];
-    for (origin, expected) in cases {
+    let text = |origin: f64| {
         let body = Curve::new([origin - 1.0, origin + 1.0], |k: f64| {
             let x = k - origin;
             CurvePoint { x: k, y: 0.05 * x * x, dx: 1.0, dy: 0.1 * x }
         });
         let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115e3);
-        let text = contact.solve(Control::Load(500.0)).unwrap().to_string();
+        contact.solve(Control::Load(500.0)).unwrap().to_string()
+    };
+    for (origin, expected) in cases {
+        let text = text(origin);
         let lines: Vec<_> = text.lines().collect();
         assert!(lines.len() == 3 && lines[0] == expected, "{text}");
     }
+    // No corner and no quadrature is to blame where the digits of x end.
+    let far = text(1e13);
+    assert!(far.ends_with("x has too few digits: move the origin to the contact"), "{far}");
 }
 
 /// A pad bears a little on the walls at its ends: they are no wrong unit.

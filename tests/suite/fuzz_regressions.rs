@@ -350,6 +350,10 @@ fn a_search_spends_no_more_than_its_budget() {
     assert_eq!(budget, (1 << 20) + 2048);
     assert!(evaluations > budget && evaluations < budget + 256, "{evaluations}");
     assert!(last.left < last.right && last.left >= -1.1 && last.right <= 1.1);
+    // Its kinks are no tips: no panel owns up to one, and what is found would be rough.
+    let hundreds = saw(800.0);
+    let fault = Contact::new(&Flat, &hundreds).unwrap().solve(Control::Load(0.02)).unwrap_err();
+    assert!(matches!(fault, ContactError::Solve(SolveError::BudgetSpent { .. })), "{fault}");
     let contact = Contact::new(&Flat, &coarse).unwrap();
     let solution = contact.solve(Control::HalfWidth(0.3)).unwrap();
     assert!(solution.cost().evaluations < 8_000 && solution.limits_error() < Some(1e-5));

@@ -236,6 +236,10 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["46 evaluations"],
         ),
         (
+            ContactError::Solve(SolveError::Undecided { x: 1.5, evaluations: 0, samples: 0 }),
+            &["x = 1.5, as the limits", "move the origin"],
+        ),
+        (
             ContactError::Input(InputError::InvalidTolerance { tolerance: -6.5 }),
             &["-6.5", "tolerance < 1"],
         ),

@@ -153,3 +153,28 @@ fn a_bump_of_the_slope_that_the_panels_miss() {
         }
     }
 }
+
+/// A survey that learns the waves of a contact compares a rise anew only where its panels have
+/// changed: with all rises each time, it took 80 times as long.
+#[test]
+fn fine_waves_take_a_time_like_their_number() {
+    let time = |waves: f64| {
+        let body = Curve::new([-1.0, 1.0], |k: f64| {
+            let (sin, cos) = (waves * k).sin_cos();
+            CurvePoint {
+                x: k,
+                y: 0.05 * k * k + 1e-3 / waves * sin,
+                dx: 1.0,
+                dy: 0.1 * k + 1e-3 * cos,
+            }
+        });
+        let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115385.0);
+        let clock = std::time::Instant::now();
+        let solution = contact.solve(Control::Load(100.0)).unwrap();
+        assert_eq!(solution.intervals().len(), 2);
+        clock.elapsed().as_secs_f64()
+    };
+    let [few, many] = [4e3, 1e4].map(time);
+    println!("{many:.3} s, {few:.3} s");
+    assert!(many < 40.0 * few, "{many} s, {few} s");
+}

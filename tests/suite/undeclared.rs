@@ -54,15 +54,20 @@ fn peak_of(body: common::Profile, load: f64) -> (f64, f64, String) {
     let solution = contact.solve(Control::Load(load)).unwrap();
     let peak = solution.peak().unwrap();
     let all = solution.pressure().unwrap();
-    let error = all.estimate(peak.x, &mut Cost::default()).unwrap().error;
-    (peak.pressure, error, solution.to_string())
+    let estimate = all.estimate(peak.x, &mut Cost::default()).unwrap();
+    assert_eq!((peak.pressure, peak.error), (estimate.value, estimate.error));
+    assert_eq!(solution.contacts().unwrap()[0].peak, Some(peak));
+    assert_eq!(solution.summary().unwrap().peak, Some(peak));
+    (peak.pressure, peak.error, solution.to_string())
 }
 
 /// Next to its tip the slope of such a body changes as much from 1e-200 to 1e-100 as from 1e-100
 /// to 1, and so does the pressure: the estimate has what no sample sees, and the text says so.
 #[test]
 fn the_peak_at_a_corner_that_is_no_breakpoint_is_uncertain() {
-    for (n, s) in [(1.02, 0.0), (1.05, 0.0), (1.1, 0.0), (1.02, 1e-3), (1.05, 1e-3)] {
+    let aside = [1e-3, 0.1, 0.3, 0.7].map(|s| [(1.05, s), (1.1, s)]).concat();
+    let steep = [0.0, 1e-3, 0.3, 0.7].map(|s| (1.02, s));
+    for (n, s) in [(1.05, 0.0), (1.1, 0.0)].into_iter().chain(aside).chain(steep) {
         let exact = PowerLaw::new(1.0, n, 0.2).unwrap();
         let (value, error, text) = peak_of(power(n, s, [-1.0, 1.0]), exact.load(1.0));
         let missed = exact.pressure(0.0, 1.0) - value;

@@ -109,8 +109,7 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
     if solution.tilt != 0.0:
         numbers.update(tilt=solution.tilt)
     note(lambda: [solution.centre_of_pressure], "centre_of_pressure")
-    note(solution.peak, "peak_x", "peak_pressure")
-    note(lambda: [solution.pressure_estimate(numbers["peak_x"])[1]], "peak_error")
+    note(solution.peak, "peak_x", "peak_pressure", "peak_error")
     note(lambda: solution.uncertainty()[2:], "half_width_deviation", "peak_deviation")
 
     def largest(name: str, of: Callable[[Below], StressPeak]) -> None:

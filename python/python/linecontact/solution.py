@@ -75,10 +75,14 @@ class Interval(NamedTuple):
 
 
 class Peak(NamedTuple):
-    """A largest pressure and its x: a pressure and a length."""
+    """A largest pressure and its x, a pressure and a length, with the estimated error of the pressure.
+
+    The error is above rounding next to a corner that is no breakpoint, or of a coarse quadrature.
+    """
 
     x: float
     pressure: float
+    error: float
 
 
 class Extremum(NamedTuple):

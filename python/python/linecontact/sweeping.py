@@ -112,7 +112,7 @@ def sweep(
         Quantities of each solution; no others are computed. Lengths: "a", "b", "half_width" and
         "centre" (of the interval between the outermost limits), "peak_x", "centre_of_pressure",
         "max_shear_x", "max_shear_depth", "approach", "separation", "half_width_deviation".
-        Pressures: "peak_pressure" (infinite at a corner), "mean_pressure", "max_shear",
+        Pressures: "peak_pressure" (infinite at a corner), "peak_error", its estimated error, "mean_pressure", "max_shear",
         "stiffness", "peak_pressure_deviation". The deviations are those of `Solution.uncertainty`. "load" is a
         force/length, "moment" a force, "tilt" is in radians. "limits_error" is a share of the
         half-width, NaN where both limits were given. "contacts" (their number), "evaluations" (of

@@ -177,6 +177,8 @@ impl<T: Real> Survey<T> {
         load: T,
         cost: &mut Cost,
     ) -> Result<(), ContactError<T>> {
+        // Spans whose panels have changed since the rises there were compared.
+        let mut changed = vec![self.range];
         loop {
             let mut marked = std::mem::take(&mut self.marked);
             marked[0].clear();
@@ -191,34 +193,33 @@ impl<T: Real> Survey<T> {
                 let off = (height(to) - height(from) - rise).abs();
                 off > T::of(MAX_AT_FOOT) * load + noise(from) + noise(to)
             };
-            marked[0].extend(rises.iter().filter(is_off).map(|(span, _)| *span));
-            for body in &mut self.bodies {
+            let is_open = |&&([from, to], _): &&([T; 2], T)| {
+                changed.iter().any(|on| from <= on[1] && to >= on[0])
+            };
+            marked[0].extend(rises.iter().filter(is_open).filter(is_off).map(|(span, _)| *span));
+            changed.clear();
+            // A flat surface has no features, and one panel that is as wide as all.
+            let may_miss = |(_, surface): &(_, &Surface<'_, T>)| !surface.is_endless();
+            for (body, _) in self.bodies.iter_mut().zip(&gap.bodies).filter(may_miss) {
                 for &[from, to] in &marked[0] {
                     let [first, last] = [from, to].map(|x| body.panels_at(x));
                     let on = &mut body.panels[first[1]..=last[0].max(first[1])];
+                    changed.push([on[0].x()[0], on[on.len() - 1].x()[1]]);
                     // A shorter panel has points of its own there.
                     let is_long = |panel: &&mut Panel<T>| panel.x()[1] - panel.x()[0] > to - from;
                     on.iter_mut().filter(is_long).for_each(Panel::void);
                 }
             }
-            let refined = self.refine_void(gap, &marked[0], cost);
+            changed.dedup();
+            // The void panels.
+            let most = T::max_value().unwrap_or(T::one() / T::epsilon());
+            let refined = self.refine_at(gap, [&marked[0]; 2], most, cost);
             self.marked = marked;
             if !refined? {
                 return Ok(());
             }
             (self.is_one, self.known) = (false, None);
         }
-    }
-
-    /// Refines the void panels on some spans; tells whether there were any.
-    fn refine_void(
-        &mut self,
-        gap: &Gap<'_, T>,
-        spans: &[[T; 2]],
-        cost: &mut Cost,
-    ) -> Result<bool, ContactError<T>> {
-        let most = T::max_value().unwrap_or(T::one() / T::epsilon());
-        self.refine_at(gap, [spans; 2], most, cost)
     }
 
     /// Refines panels on some stretches until they are as accurate as the load F/κ requires, or

@@ -194,3 +194,14 @@ fn a_look_that_was_broken_off_has_seen_nothing() {
         assert_eq!(survey.is_resolved(&gap, 0.02), !is_stopped);
     }
 }
+
+/// What the panels of a contact have seen is a feature of the curve, and not of the flat below it.
+#[test]
+fn a_flat_has_no_features_to_learn() {
+    surveyed(|gap, survey| {
+        let rises = [([0.1, 0.101], 1e-3)];
+        survey.learn(gap, &rises, 0.02, &mut Cost::default()).unwrap();
+        let panels = survey.bodies.each_ref().map(|body| body.panels.len());
+        assert!(panels[0] == 1 && panels[1] > 4, "{panels:?}");
+    });
+}

@@ -13,7 +13,7 @@ use crate::gap::{Added, Cost, Gap, SampleCache, Sampler, Survey};
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, size_for};
 use crate::profile::Noise;
 use crate::{Body, ContactError, Ends, Interval, Real, Side};
-use candidate::{Candidate, FALL_OF_A_ROOT, LEVELS_OF_A_WAVE, MAX_AT_JUMP, is_long};
+use candidate::{Candidate, FALL_OF_A_ROOT, FEW_ULPS, LEVELS_OF_A_WAVE, MAX_AT_JUMP, is_long};
 use num_traits::ToPrimitive;
 use sampling::SampledBody;
 
@@ -443,11 +443,16 @@ impl<T: Real> PanelSet<T> {
     }
 
     /// Raises the errors of two neighbours to their mismatch if only a loose tolerance accepts it:
-    /// a feature lies between their last nodes.
+    /// a feature lies between their last nodes. Likewise if they are too short
+    /// to be halved: at a tip the slope would rise about as much in each of the halvings to come.
     fn own_up_to(&self, [left, right]: [&mut Panel<T>; 2], allowed: T) {
         let missed = (left.at_ends()[1] - right.at_ends()[0]).abs();
         let is_explained = missed <= T::of(16.0) * (left.error + right.error);
-        if self.is_loose() && !is_explained && self.meets(left, right, allowed) {
+        let rise = |panel: &Panel<T>| (panel.at_ends()[1] - panel.at_ends()[0]).abs();
+        let is_jump = missed > T::count(MAX_AT_JUMP) * rise(left).max(rise(right));
+        let short = T::of(FEW_ULPS) * T::epsilon() * right.x[1].abs();
+        let is_tip = !is_jump && right.x[1] - left.x[0] < short;
+        if !is_explained && (is_tip || self.is_loose() && self.meets(left, right, allowed)) {
             left.error = left.error.max(missed);
             right.error = right.error.max(missed);
         }

@@ -13,6 +13,7 @@ use linecontact::{
     Solver,
 };
 use std::f64::consts::{PI, TAU};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 pub const PERIOD: f64 = 1.3;
 
@@ -371,6 +372,36 @@ fn what_is_not_possible_is_refused() {
     }
     let fault = error(Contact::new(&Flat, &Flat).unwrap().period(PERIOD), load);
     assert!(matches!(fault, ContactError::Solve(SolveError::CompleteContact { .. })), "{fault}");
+}
+
+/// Near the load of complete contact, and above it, a search took a hundred solves to its error.
+#[test]
+fn nearly_complete_contact_ends_soon() {
+    let (wave, modulus, calls) = (1.5e-4, 115385.0, AtomicUsize::new(0));
+    let body = Curve::new([0.0, 1.0], |k: f64| {
+        calls.fetch_add(1, Relaxed);
+        let (sin, cos) = (TAU * k).sin_cos();
+        CurvePoint { x: k, y: wave * cos, dx: 1.0, dy: -wave * TAU * sin }
+    });
+    let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(modulus).period(1.0);
+    let full = PI * modulus * wave;
+    let gap = |share: f64| 2.0 / PI * (1.0 - share).sqrt().asin();
+    for share in [0.99, 0.998, 0.9987] {
+        let solution = contact.solve(Control::Load(share * full)).unwrap();
+        let off = 1.0 - 2.0 * solution.hull().half_width() - gap(share);
+        assert!(off.abs() < 1e-11, "{share}: {off:e}");
+    }
+    for share in [0.9992, 0.9997, 1.002, 1.1, 1.14, 2.0] {
+        calls.store(0, Relaxed);
+        let fault = contact.solve(Control::Load(share * full)).unwrap_err();
+        let ContactError::Solve(SolveError::CompleteContact { load, complete }) = fault else {
+            panic!("{share}: {fault}")
+        };
+        assert!(load == share * full && (complete / full - 1.0).abs() < 1e-12, "{fault}");
+        let calls = calls.load(Relaxed);
+        println!("{share}: {calls}");
+        assert!(calls < 40_000, "{share}: {calls}");
+    }
 }
 
 /// Kernel that is zero.

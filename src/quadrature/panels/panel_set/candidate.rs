@@ -16,7 +16,7 @@ const FALL_OF_A_SQUARE_ROOT: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 /// Length of a panel, in units in the last place of x, on which their rounding explains some of
 /// what its series misses.
-const FEW_ULPS: f64 = 1024.0;
+pub(super) const FEW_ULPS: f64 = 1024.0;
 
 /// Share of the error that a half may keep if halving is to go on beyond [`MAX_AT_JUMP`]: next to a
 /// root of high order, as in the slope of `|x|^(11/10)`, the pressure still depends on the rest.
@@ -72,13 +72,16 @@ impl<T: Real> Candidate<T> {
     }
 
     /// Raises the error of a panel that is too short to be halved: what is left on it rises like a
-    /// root, or is a jump.
+    /// root, or is a jump. A rise that is NaN says nothing.
     pub fn own_up(&mut self) {
         // One halving may have cut next to the corner.
         let left = (self.rise / self.rose[0]).max(self.rose[0] / self.rose[1]);
         let falls = (T::one() - left).max(T::one() / T::count(MAX_AT_JUMP));
         let share = T::of(BY_FALL) * (falls.recip() - T::of(FALL_OF_A_SQUARE_ROOT.recip()));
-        self.panel.error = self.panel.error.max(share * self.rise);
+        let doubt = share * self.rise;
+        let is_known = doubt.partial_cmp(&doubt).is_some();
+        self.panel.error =
+            self.panel.error.max(if is_known { doubt } else { T::one() / T::zero() });
     }
 
     /// Tells whether the coefficients fall as those of a kink do, like a low power of their number:
@@ -111,4 +114,18 @@ pub(super) fn is_long<T: Real>([left, right]: [T; 2], noise: Option<[Noise<T>; 2
     let rounded = T::epsilon() * left.abs().max(right.abs());
     let fine = T::of(8.0) * noise.map_or(rounded, |[one, other]| rounded.max(one.x).max(other.x));
     right - left > fine && middle > left && middle < right
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Candidate;
+
+    #[test]
+    fn a_rise_that_is_unknown_is_the_worst() {
+        for (rise, most) in [(0.1, 10.0), (f64::NAN, f64::INFINITY)] {
+            let mut trial = Candidate { rise, rose: [0.1; 2], ..Candidate::new([0.0, 1e-15]) };
+            trial.own_up();
+            assert!(trial.panel.error > 0.1 * most && trial.panel.error <= most, "{rise}");
+        }
+    }
 }
