@@ -17,7 +17,6 @@ use super::Contact;
 use super::capacity::capacity;
 use super::edges::{Conditions, Given};
 use super::equations::{Equations, relative_error};
-use super::newton::Stop;
 use super::newton::linearised::load_of;
 use super::newton::single::{Converged, Effort, NewtonSingle, Verdict};
 use super::one_by_one;
@@ -31,11 +30,6 @@ pub(super) const MAX_DOUBT: f64 = 0.03;
 
 /// Initial guesses before the search is given up.
 const MAX_GUESSES: usize = 120;
-
-/// Largest number of steps beyond an end of the bodies: in an initial guess, before another is
-/// made; in full, before the capacity is computed. (Each goes half the way: a contact may come as
-/// close to an end as 1e-7 of its width.)
-const MAX_AT_END: [usize; 2] = [2, 24];
 
 /// Uncertainty of a contact that is about right, and margin sampled beyond it, as a share of its
 /// width.
@@ -155,22 +149,11 @@ impl<T: Real> Single<'_, '_, T> {
         self.in_full(guess, doubt)
     }
 
-    /// Runs Newton's method on the samples at hand. If it leads to an end of the bodies time and
-    /// again, the load may exceed their capacity.
+    /// Runs Newton's method on the samples at hand.
     fn converge(&mut self, from: Interval<T>, effort: Effort) -> Fallible<T, Verdict<T>> {
         let (integrator, gap, conditions) =
             (&mut **self.integrator, &self.contact.gap, &self.conditions);
-        let most_at_end = MAX_AT_END[usize::from(effort == Effort::Full)];
-        let mut newton = NewtonSingle { integrator, gap, conditions, effort, most_at_end };
-        let verdict = newton.converge(from)?;
-        let is_at_end = matches!(verdict, Err(Stop::Beyond(_)));
-        if effort == Effort::Full && is_at_end && self.may_bear()? {
-            let (integrator, conditions) = (&mut **self.integrator, &self.conditions);
-            let most_at_end = usize::MAX;
-            return NewtonSingle { integrator, gap, conditions, effort, most_at_end }
-                .converge(from);
-        }
-        Ok(verdict)
+        NewtonSingle { integrator, gap, conditions, effort }.converge(from)
     }
 
     /// Finds the contact by one limit at a time.

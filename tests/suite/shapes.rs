@@ -342,12 +342,12 @@ fn what_is_no_shape_is_refused() {
         }
         other => panic!("{other:?}"),
     };
-    in_piece(wedge([-0.1, f64::NAN], 1.0).err(), 1, "the slope");
-    in_piece(wedge([-0.1, 0.1], -1.0).err(), 0, "the reach");
-    in_piece(rounded_punch(1.0, 1.0, 0.5).err(), 0, "the reach");
-    in_piece(rounded_punch(1.0, 1.0, f64::NAN).err(), 0, "the reach");
-    in_piece(rounded_punch(-0.5, 1.0, 0.5).err(), 1, "the half-width of the flat");
-    in_piece(rounded_punch(0.5, 0.0, 1.0).err(), 0, "the radius");
+    in_piece(wedge([-0.1, f64::NAN], 1.0).err(), 2, "the slope");
+    in_piece(wedge([-0.1, 0.1], -1.0).err(), 1, "the reach");
+    in_piece(rounded_punch(1.0, 1.0, 0.5).err(), 1, "the reach");
+    in_piece(rounded_punch(1.0, 1.0, f64::NAN).err(), 1, "the reach");
+    in_piece(rounded_punch(-0.5, 1.0, 0.5).err(), 2, "the half-width of the flat");
+    in_piece(rounded_punch(0.5, 0.0, 1.0).err(), 1, "the radius");
 
     // A joined body is not smooth, and a body turned too far turns back.
     let joined = wedge([-0.1, 0.1], 1.0).unwrap();

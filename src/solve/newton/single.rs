@@ -18,6 +18,11 @@ use crate::{Ends, Fallible, Gap, Interval, Real, Side};
 /// takes long has no contact.
 const MAX_TRIALS: [usize; 2] = [16, 200];
 
+/// Largest number of steps beyond an end of the bodies: in an initial guess, before another is
+/// made; in full, before the capacity is computed. (Each goes half the way: a contact may come as
+/// close to an end as 1e-7 of its width.)
+const MAX_AT_END: [usize; 2] = [2, 24];
+
 /// Largest number of steps in full that are longer than half of the half-width.
 const MAX_LONG: usize = 8;
 
@@ -60,8 +65,6 @@ pub(in super::super) struct NewtonSingle<'s, 'b, T: Real> {
     pub gap: &'s Gap<'b, T>,
     pub conditions: &'s Conditions<T>,
     pub effort: Effort,
-    /// Largest number of steps beyond an end of the bodies: each takes samples closer to that end.
-    pub most_at_end: usize,
 }
 
 /// Last trial of a search, and the step that led to it.
@@ -117,6 +120,10 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         Ok(Err(Stop::Failed))
     }
 
+    fn most_at_end(&self) -> usize {
+        MAX_AT_END[usize::from(self.effort == Effort::Full)]
+    }
+
     /// Tells whether a step leads to the contact sought.
     fn leads(&self, system: &Linearised<T>) -> bool {
         !system.is_open() || system.is_stable(self.conditions)
@@ -143,7 +150,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         let wider = moved(self.conditions, trial.on, system.lean(), [-one, one], one);
         let next = self.before_ends(trial.on, wider);
         trial.at_end += usize::from(next != wider);
-        if trial.at_end > self.most_at_end {
+        if trial.at_end > self.most_at_end() {
             return Err(Stop::Beyond(next));
         }
         if !system.is_open() || next.is_same(&trial.on) {
@@ -173,7 +180,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
             return Ok(false);
         }
         trial.at_end += 1;
-        if trial.at_end > self.most_at_end || next.is_same(&from) {
+        if trial.at_end > self.most_at_end() || next.is_same(&from) {
             return Err(Err(Stop::Beyond(next)));
         }
         trial.on = next;
