@@ -12,6 +12,7 @@ use super::{Cost, Node, Survey};
 use crate::gap::{Gap, Surface};
 use crate::real::same;
 use crate::{ContactError, Interval, Real};
+use std::cmp::Ordering::Equal;
 
 /// Default distance of points, in widths of the narrowest feature to be seen.
 const PROBE_SPACING: f64 = 4.0;
@@ -194,7 +195,8 @@ impl<T: Real> Survey<T> {
                 off > T::of(MAX_AT_FOOT) * load + noise(from) + noise(to)
             };
             let is_open = |&&([from, to], _): &&([T; 2], T)| {
-                changed.iter().any(|on| from <= on[1] && to >= on[0])
+                let on = changed.get(changed.partition_point(|on| on[1] < from));
+                on.is_some_and(|on| on[0] <= to)
             };
             marked[0].extend(rises.iter().filter(is_open).filter(is_off).map(|(span, _)| *span));
             changed.clear();
@@ -210,7 +212,12 @@ impl<T: Real> Survey<T> {
                     on.iter_mut().filter(is_long).for_each(Panel::void);
                 }
             }
-            changed.dedup();
+            changed.sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Equal));
+            changed.dedup_by(|next, on| {
+                let meets = next[0] <= on[1];
+                on[1] = if meets { on[1].max(next[1]) } else { on[1] };
+                meets
+            });
             // The void panels.
             let most = T::max_value().unwrap_or(T::one() / T::epsilon());
             let refined = self.refine_at(gap, [&marked[0]; 2], most, cost);
