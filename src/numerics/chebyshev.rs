@@ -51,18 +51,13 @@ pub(crate) struct Table {
     transform: [[f64; MAX_SIZE]; MAX_SIZE],
     /// Share of the value at node j in the value at the right end.
     pub at_end: [f64; MAX_SIZE],
-    /// Share of the value at node j in the integrals from the first node to a [middle](middle) one,
-    /// and from there to the last.
-    in_rises: [[f64; MAX_SIZE]; 2],
+    /// Share of the value at node j in the integral from the first node to node k, as
+    /// `in_rises[k][j]`.
+    in_rises: [[f64; MAX_SIZE]; MAX_SIZE],
 }
 
 static TABLES: LazyLock<[Table; SIZES.len()]> = LazyLock::new(|| SIZES.map(Table::new));
 static COARSE: LazyLock<Table> = LazyLock::new(Table::with_ends);
-
-/// Returns the number of the middle one of n nodes, or of the node to the right of the middle.
-pub(crate) fn middle(n: usize) -> usize {
-    n / 2
-}
 
 impl Table {
     fn new(n: usize) -> Self {
@@ -79,10 +74,11 @@ impl Table {
             }
             table.at_end[j] = table.transform[j][..n].iter().sum();
         }
-        let places = [0, middle(n), n - 1].map(|i| table.z[i]);
         for j in 0..n {
-            let [first, middle, last] = values(&primitive(&table.transform[j][..n])[..=n], &places);
-            (table.in_rises[0][j], table.in_rises[1][j]) = (middle - first, last - middle);
+            let integral = values(&primitive(&table.transform[j][..n])[..=n], &table.z);
+            for k in 0..n {
+                table.in_rises[k][j] = integral[k] - integral[0];
+            }
         }
         table.set_spacing(n);
         table
@@ -131,12 +127,14 @@ impl Table {
     }
 
     /// Returns the integrals of the polynomial with these values at the nodes, from the first node
-    /// to a [middle](middle) one, and from there to the last.
-    pub fn rises<T: Real>(&self, values: &[T]) -> [T; 2] {
-        [0, 1].map(|half| {
-            let terms = values.iter().zip(&self.in_rises[half]);
-            terms.fold(T::zero(), |sum, (&value, &share)| fma(value, T::of(share), sum))
-        })
+    /// to each.
+    pub fn rises<T: Real>(&self, values: &[T]) -> Coeffs<T> {
+        let mut rises = [T::zero(); MAX_SIZE];
+        for (rise, shares) in rises.iter_mut().zip(&self.in_rises[..values.len()]) {
+            let terms = values.iter().zip(shares);
+            *rise = terms.fold(T::zero(), |sum, (&value, &share)| fma(value, T::of(share), sum));
+        }
+        rises
     }
 
     /// Returns the larger of the last two coefficients, after the larger of the two before.

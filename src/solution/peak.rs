@@ -177,6 +177,18 @@ pub(crate) fn largest_pressure<T: Real>(
         }
         search.climb(bracket)?;
     }
+    // Panels halved down to a corner that is no breakpoint may end there.
+    let (x, short) = (search.top.0, T::epsilon() * on.half_width());
+    let spans = integrator.panels().into_iter().flat_map(|own| own.spans(contact));
+    let tips = spans
+        .map(|(_, ends)| ends)
+        .filter(|[from, to]| *to - *from <= short && *from <= x + short && x - short <= *to);
+    for tip in tips.flatten() {
+        let there = search.meet(tip)?;
+        if !there.value.is_finite() && there.value > T::zero() {
+            return Ok((tip, there));
+        }
+    }
     search.polished(on)
 }
 

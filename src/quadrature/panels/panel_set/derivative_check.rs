@@ -2,7 +2,7 @@
 
 use super::PanelSet;
 use crate::gap::{Cost, CurveSample, Gap, Sampler};
-use crate::numerics::chebyshev::{Table, middle};
+use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, Table};
 use crate::quadrature::panels::panel::{Panel, rise, within};
 use crate::{Body, ContactError, InputError, Interval, ProfileError, Real};
 
@@ -49,10 +49,10 @@ impl<T: Real> PanelSet<T> {
         self.noise.map_or(T::zero(), |noise| noise[body].of_height(slope))
     }
 
-    /// Checks that the gap rises between the first node, a middle one and the last by the same
-    /// amount by heights as by slopes, within the uncertainty of both: a step in the heights shows
-    /// in no slope. `steepest` is the largest sum of the slopes of both bodies. (Waves that both
-    /// bodies share are not in the gap, and their slopes need not be resolved.)
+    /// Checks that the gap rises from each node to the next by the same amount by heights as by
+    /// slopes, within the uncertainty of both: a step in the heights shows in no slope. `steepest`
+    /// is the largest sum of the slopes of both bodies. (Waves that both bodies share are not in
+    /// the gap, and their slopes need not be resolved.)
     pub(super) fn check_heights(
         &self,
         panel: &Panel<T>,
@@ -61,43 +61,56 @@ impl<T: Real> PanelSet<T> {
         if self.traces.iter().all(|cache| cache.direct) {
             return Ok(());
         }
-        let zero = T::zero();
         let (n, half, table) = (panel.n, panel.half(), Table::of(panel.n));
-        let nodes = [0, middle(n), n - 1];
-        let places = nodes.map(|i| panel.x[0] + half * T::of(1.0 + table.z[i]));
-        let sloped = [0, 1].map(|i| table.rises(&self.slopes[i][..n]).map(|rise| half * rise));
-        let (mut by_heights, mut doubt, mut rounded) = ([zero; 2], [zero; 3], zero);
+        let place = |i: usize| panel.x[0] + half * T::of(1.0 + table.z[i]);
+        let places: Coeffs<T> = std::array::from_fn(|i| place(i.min(n - 1)));
+        // Of bodies with heights to be compared, and of others.
+        let mut rises = [[T::zero(); MAX_SIZE]; 2];
         for (i, cache) in self.traces.iter().enumerate() {
-            let sign = if i == 0 { -T::one() } else { T::one() };
-            let mut rises = sloped[i];
-            if !cache.direct {
-                // The point is near the node, not at it; the next point bounds the change of slope
-                // between them.
-                let points = cache.curve_samples();
-                let mut heights = [zero; 3];
-                for (j, &node) in nodes.iter().enumerate() {
-                    let [near, next] =
-                        [node, if node == 0 { 1 } else { node - 1 }].map(|i| points[i]);
-                    let missed = places[j] - near.x;
-                    heights[j] = near.y + missed * near.slope;
-                    doubt[j] += (missed * (next.slope - near.slope)).abs();
-                    doubt[j] += self.noise_of_height(i, near.slope);
-                    rounded = rounded.max(near.y.abs() + (near.x * near.slope).abs());
-                }
-                rises = [heights[1] - heights[0], heights[2] - heights[1]];
-                rounded = rounded.max(cache.height());
+            let (sign, sum) = (sign::<T>(i), &mut rises[usize::from(cache.direct)]);
+            for (sum, rise) in sum.iter_mut().zip(table.rises(&self.slopes[i][..n])) {
+                *sum += sign * half * rise;
             }
-            by_heights = [0, 1].map(|i| by_heights[i] + sign * rises[i]);
         }
         let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.error;
-        for i in 0..2 {
-            let [between, doubts] = [places, doubt].map(|all| [all[i], all[i + 1]]);
-            let by_slopes = sloped[1][i] - sloped[0][i];
-            let open = doubts[0] + doubts[1] + share * (between[1] - between[0]);
-            let by_heights = by_heights[i];
-            Rises { between, by_heights, by_slopes, highest: rounded, open }.compare()?;
+        match self.contradiction(&places[..n], rises, share) {
+            Some((_, error)) => Err(error),
+            None => Ok(()),
         }
-        Ok(())
+    }
+
+    /// Returns the first place up to which the gap rises otherwise by heights than by slopes, from
+    /// the place before, with the error that tells so. The rises up to each place are those of
+    /// bodies whose heights were taken near the places, and of others.
+    pub(super) fn contradiction(
+        &self,
+        places: &[T],
+        [sought, known]: [Coeffs<T>; 2],
+        share: T,
+    ) -> Option<(usize, ContactError<T>)> {
+        let (mut heights, mut doubt, mut highest) = (known, [T::zero(); MAX_SIZE], T::zero());
+        for (i, cache) in self.traces.iter().enumerate().filter(|(_, cache)| !cache.direct) {
+            let points = &cache.curve_samples()[..places.len()];
+            for (j, (near, place)) in points.iter().zip(places).enumerate() {
+                // The point is near the place, not at it; the next point bounds the change of slope
+                // between them.
+                let next = points[if j == 0 { 1 } else { j - 1 }];
+                let missed = *place - near.x;
+                heights[j] += sign::<T>(i) * (near.y + missed * near.slope);
+                doubt[j] += (missed * (next.slope - near.slope)).abs();
+                doubt[j] += self.noise_of_height(i, near.slope);
+                highest = highest.max(near.y.abs() + (near.x * near.slope).abs());
+            }
+            highest = highest.max(cache.height());
+        }
+        (1..places.len()).find_map(|i| {
+            let between = [places[i - 1], places[i]];
+            let open = doubt[i - 1] + doubt[i] + share * (between[1] - between[0]);
+            let by_heights = heights[i] - heights[i - 1];
+            let by_slopes = (sought[i] - sought[i - 1]) + (known[i] - known[i - 1]);
+            let rises = Rises { between, by_heights, by_slopes, highest, open };
+            rises.compare().err().map(|error| (i, error))
+        })
     }
 
     /// Returns the heights of the gap of the bodies as described, at rising places; refuses heights
@@ -126,6 +139,11 @@ impl<T: Real> PanelSet<T> {
         cost.heights += sampler.cost.evaluations;
         Ok(heights)
     }
+}
+
+/// Returns the sign of a body's height in the gap.
+fn sign<T: Real>(body: usize) -> T {
+    if body == 0 { -T::one() } else { T::one() }
 }
 
 /// Rise of the gap from one place to another, by heights and by slopes: lengths.

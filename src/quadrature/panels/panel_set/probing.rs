@@ -6,8 +6,8 @@
 //! series.
 
 use super::PanelSet;
-use crate::gap::Gap;
-use crate::numerics::chebyshev::{Table, by_size};
+use crate::gap::{Gap, SampleCache};
+use crate::numerics::chebyshev::{MAX_SIZE, Table, by_size, primitive, values};
 use crate::quadrature::panels::Panel;
 use crate::{ContactError, Interval, Real};
 
@@ -135,6 +135,20 @@ impl<T: Real> PanelSet<T> {
         // Also outside the contact: a limit may leave little of a feature inside.
         let missed = (0..N).filter(|&i| off(i) > allowed);
         let worst = missed.reduce(|one, other| if off(other) > off(one) { other } else { one });
-        Ok(worst.map(|i| places[i]))
+        // A groove between two nodes may have walls that no place meets; then its heights show it.
+        // (What a body rises that knows its slopes, but is not level, is unknown here.)
+        let is_level = |(cache, slopes): (&SampleCache<T>, [T; N])| {
+            !cache.direct || slopes.iter().all(T::is_zero)
+        };
+        if worst.is_some() || !self.traces.iter().zip([lower, upper]).all(is_level) {
+            return Ok(worst.map(|i| places[i]));
+        }
+        let at = places.map(|x| panel.local(x));
+        let rises = values(&primitive(panel.coefficients())[..=panel.length], &at);
+        let mut sought = [T::zero(); MAX_SIZE];
+        sought.iter_mut().zip(rises).for_each(|(sum, rise)| *sum = reach * rise);
+        let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.error;
+        let found = self.contradiction(&places, [sought, [T::zero(); MAX_SIZE]], share);
+        Ok(found.map(|(i, _)| places[i]))
     }
 }
