@@ -73,8 +73,12 @@ impl<T: Real> Solution<'_, T> {
         self.has_steep_limits() || self.steepest_but(T::of(EDGE)).is_ok_and(is_steep)
     }
 
-    /// Tells whether the slope of the gap next to the limits exceeds that of half-planes.
+    /// Tells whether the slope of the gap next to the limits exceeds that of half-planes. (Bent
+    /// bodies have that of a soft layer besides their own.)
     pub(crate) fn has_steep_limits(&self) -> bool {
+        if self.gap.bend().is_some() {
+            return false;
+        }
         let limits = self.intervals().iter().map(|&on| but(on, T::of(EDGE))).enumerate();
         let solved = self.solved();
         let slopes =

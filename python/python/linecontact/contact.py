@@ -558,7 +558,8 @@ class Contact(Unchanging):
         to end. Samples are then less than half of it apart all over the bodies, whatever convexity
         they declare; bodies too long for that are refused. It does not apply with
         `single_interval`. By default Gaussian bumps are seen whose width at half their height is at
-        least 2 % of the contact.
+        least 2 % of the contact, in it or up to a half-width beside. (What ends abruptly between
+        two samples shows in their heights alone: ask for it with half of its length.)
     period : float, optional
         Length along x after which both bodies repeat; each is flat or described over one period.
         The load, and all results, are those of one period; the approach is that of the mean planes.
