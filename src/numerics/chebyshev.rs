@@ -52,7 +52,7 @@ pub(crate) struct Table {
     /// Share of the value at node j in the value at the right end.
     pub at_end: [f64; MAX_SIZE],
     /// Share of the value at node j in the integral from the first node to node k, as
-    /// `in_rises[k][j]`.
+    /// `in_rises[j][k]`.
     in_rises: [[f64; MAX_SIZE]; MAX_SIZE],
 }
 
@@ -77,7 +77,7 @@ impl Table {
         for j in 0..n {
             let integral = values(&primitive(&table.transform[j][..n])[..=n], &table.z);
             for k in 0..n {
-                table.in_rises[k][j] = integral[k] - integral[0];
+                table.in_rises[j][k] = integral[k] - integral[0];
             }
         }
         table.set_spacing(n);
@@ -129,10 +129,11 @@ impl Table {
     /// Returns the integrals of the polynomial with these values at the nodes, from the first node
     /// to each.
     pub fn rises<T: Real>(&self, values: &[T]) -> Coeffs<T> {
-        let mut rises = [T::zero(); MAX_SIZE];
-        for (rise, shares) in rises.iter_mut().zip(&self.in_rises[..values.len()]) {
-            let terms = values.iter().zip(shares);
-            *rise = terms.fold(T::zero(), |sum, (&value, &share)| fma(value, T::of(share), sum));
+        let (n, mut rises) = (values.len(), [T::zero(); MAX_SIZE]);
+        for (&value, shares) in values.iter().zip(&self.in_rises) {
+            for (rise, &share) in rises[..n].iter_mut().zip(&shares[..n]) {
+                *rise = fma(value, T::of(share), *rise);
+            }
         }
         rises
     }

@@ -67,9 +67,13 @@ impl<T: Real> PanelSet<T> {
         // Of bodies with heights to be compared, and of others.
         let mut rises = [[T::zero(); MAX_SIZE]; 2];
         for (i, cache) in self.traces.iter().enumerate() {
-            let (sign, sum) = (sign::<T>(i), &mut rises[usize::from(cache.direct)]);
-            for (sum, rise) in sum.iter_mut().zip(table.rises(&self.slopes[i][..n])) {
-                *sum += sign * half * rise;
+            let (slopes, sum) = (&self.slopes[i][..n], &mut rises[usize::from(cache.direct)]);
+            if slopes.iter().all(T::is_zero) {
+                continue;
+            }
+            let reach = sign::<T>(i) * half;
+            for (sum, rise) in sum[..n].iter_mut().zip(table.rises(slopes)) {
+                *sum += reach * rise;
             }
         }
         let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.error;
