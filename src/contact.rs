@@ -349,8 +349,8 @@ impl<'b, T: Real> Contact<'b, T> {
     /// a resolution, samples are less than half the resolution apart all over the bodies, and no
     /// further apart than by default in the contacts and as far as the load reaches. So at least
     /// two of them lie in a feature of that length. In a contact a feature is seen if it changes
-    /// the slope at one of them by more than the uncertainty of the samples, or the heights from one
-    /// to the next; outside, if it changes the height by 1e-7 F/κ or more.
+    /// the slope at one of them by more than the uncertainty of the samples, or the height from
+    /// one to the next; outside, if it changes the height by 1e-7 F/κ or more.
     ///
     /// The number of evaluations is proportional to the length of the bodies over the resolution
     /// ([`Cost::heights`]). Of bodies that would take more than a million,

@@ -193,8 +193,8 @@ impl<T: Real> NewtonSeveral<T> {
                 several.press();
                 return Ok(());
             }
-            // At a kink the slope of the equations jumps: whole steps may lead from one side of it to
-            // the other for ever.
+            // At a kink the slope of the equations jumps: whole steps may lead from one side of it
+            // to the other for ever.
             if self.progress.has_grown_to(size) && self.turns_back() {
                 self.go_back();
                 turned = conditions.gap.tilted(self.tilt);
