@@ -91,9 +91,8 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
         try:
             numbers.update(zip(names, of(), strict=True))
         except SingularError as error:
-            # The names of a place, and of a value, which is infinite there.
-            if names[0].endswith("_x"):
-                numbers.update({**dict.fromkeys(names, 0.0), names[0]: error.x, names[-1]: math.inf})
+            if "peak_x" in names:
+                numbers.update(peak_x=error.x, peak_pressure=math.inf)
         except HalfPlanesOnlyError as error:
             missing[error.quantity] = None
         except LineContactError:
