@@ -161,10 +161,15 @@ impl Units {
 
 /// Returns the size of a unit such as `N/mm²`, if it is known.
 fn size(label: &str) -> Option<f64> {
-    match (label.split_once('/'), label.strip_suffix(['²', '2'])) {
-        (Some((of, per)), _) => Some(size(of)? / size(per)?),
-        (_, Some(root)) => Some(size(root.trim_end_matches('^'))?.powi(2)),
-        _ => SIZES.iter().find(|one| one.0 == label.trim()).map(|one| one.1),
+    let one = |label: &str| {
+        let root = label.trim().strip_suffix(['²', '2']);
+        let name = root.map_or(label, |root| root.trim_end_matches('^')).trim();
+        let size = SIZES.iter().find(|one| one.0 == name)?.1;
+        Some(if root.is_some() { size * size } else { size })
+    };
+    match label.split_once('/') {
+        Some((of, per)) => Some(one(of)? / one(per)?),
+        None => one(label),
     }
 }
 

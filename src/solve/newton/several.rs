@@ -224,7 +224,7 @@ impl<T: Real> NewtonSeveral<T> {
         both.fold(T::zero(), along) < T::zero()
     }
 
-    /// Goes to the middle of the last step, from which the next one would be longer.
+    /// Goes to the middle of the step before, and takes the last one back.
     fn go_back(&mut self) {
         let before = std::mem::take(&mut self.before);
         for (x, (&from, &to)) in self.unknowns().zip(before[0].iter().zip(&before[1])) {

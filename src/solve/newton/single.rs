@@ -120,6 +120,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         Ok(Err(Stop::Failed))
     }
 
+    /// Returns the largest number of steps beyond an end of the bodies.
     fn most_at_end(&self) -> usize {
         MAX_AT_END[usize::from(self.effort == Effort::Full)]
     }
