@@ -110,9 +110,9 @@ def test_units_and_columns(tmp_path: Path) -> None:
     np.testing.assert_allclose(lc.read_profile(blanks, columns=(2, 3)).points, [[0, 3e-3], [1, 4e-3]])
     with pytest.raises(ValueError, match="unit is 'ft': give one of 'm'"):
         lc.read_profile(bare, unit="ft")
-    pairs: list[dict[str, Any]] = [{"columns": (1,)}, {"file_units": "mm"}]
+    pairs: list[dict[str, Any]] = [{"columns": (1,)}, {"file_units": "mm"}, {"columns": (1.5, 2)}, {"columns": 1}, {"file_units": (1, 2)}]
     for given in pairs:
-        with pytest.raises(TypeError, match="give two, of x and z"):
+        with pytest.raises(TypeError, match="give two, of x and z, such as"):
             lc.read_profile(bare, **given)
     with pytest.raises(FileNotFoundError):
         lc.read_profile(tmp_path / "none.csv")
@@ -151,6 +151,51 @@ def test_numbers_below_the_table(tmp_path: Path) -> None:
     with pytest.raises(lc.errors.MeasuredFileError, match="x = 12 after 1.1 is farther off") as raised:
         lc.read_profile(written(tmp_path, "count.csv", f"{table}\n12;46.2\n"))
     assert raised.value.line == 14
+
+
+def test_rows_that_are_no_points_are_told(tmp_path: Path) -> None:
+    """A mean, a count or a sum beside the table is no point, wherever it stands."""
+    head, rows = "x [mm];z [um]\n", [f"{0.1 * i:.1f};{i * i}" for i in range(12)]
+    table = "\n".join(rows)
+    for text, line in [
+        (f"{head}{table}\n\n1.15;46.2\n", 15),
+        (f"{head}{table}\n\n2;46.2\n", 15),
+        (head + "\n".join(rows[:3]) + "\n\n0.25;46.2\n", 6),
+        (f"{head}12;46.2\n\n{table}\n", 2),
+        (f"-5;46.2\n\n{table}\n", 1),
+        (f"{head}-5;46.2\n{table}\n", 2),
+        (f"{head}12;46.2\n{table}\n", 3),
+        ("x [mm];z [um];flag\n" + "\n".join(f"{row};ok" for row in rows) + "\n1.2;46.2;Mean\n", 14),
+    ]:
+        with pytest.raises(lc.errors.MeasuredFileError) as raised:
+            lc.read_profile(written(tmp_path, "summary.csv", text), columns=(1, 2))
+        assert raised.value.line == line, text
+    # Pages of a table are its points.
+    pages = "\n\n".join("\n".join(rows[i : i + 4]) for i in (0, 4, 8))
+    assert len(lc.read_profile(written(tmp_path, "pages.csv", f"{head}{pages}\n")).points) == 12
+
+
+@pytest.mark.parametrize(
+    "names",
+    ["H\u00f6he [um];Weg [mm]", "Hoehe um;Strecke mm", "Height in um;Distance in mm", "Z (um);Spalte B (mm)", "z/um;path/mm"],
+)
+def test_the_header_tells_which_column_is_x(names: str, tmp_path: Path) -> None:
+    file = written(tmp_path, "swapped.csv", f"{names}\n" + "".join(f"{i * i};{0.1 * i:.1f}\n" for i in range(4)))
+    found = lc.read_profile(file)
+    assert found.unit == "mm" and found.points[-1].round(9).tolist() == [0.3, 0.009]
+    there = names.split(";")
+    in_order = written(tmp_path, "order.csv", f"{there[1]};{there[0]}\n0;0\n0.1;1\n")
+    assert lc.read_profile(in_order).points.round(9).tolist() == [[0.0, 0.0], [0.1, 0.001]]
+    with pytest.warns(UserWarning, match="states no units"):
+        assert lc.read_profile(written(tmp_path, "bare.csv", "z_um;x_mm\n5;0\n6;1\n")).points.tolist() == [[0, 5], [1, 6]]
+
+
+def test_units_that_the_header_contradicts(tmp_path: Path) -> None:
+    file = written(tmp_path, "stated.csv", "x [mm];z [um]\n0;3\n1;4\n")
+    with pytest.warns(UserWarning, match=r"line 1 states mm for x and um for z: file_units=\('mm', 'nm'\) is taken") as told:
+        found = lc.read_profile(file, file_units=("mm", "nm"))
+    assert found.points[0].round(12).tolist() == [0.0, 3e-6] and told[0].filename == __file__
+    assert lc.read_profile(file, file_units=("millimetre", "\u00b5m")).points[0].round(12).tolist() == [0.0, 3e-3]
 
 
 def test_exponents_of_fortran(tmp_path: Path) -> None:

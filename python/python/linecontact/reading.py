@@ -46,8 +46,14 @@ _NO_NUMBER = re.compile(
 _LIKE_A_NUMBER = re.compile(r"(?!\d{1,4}([-./])\d{1,2}\1\d{2,4}|\d{1,2}:\d\d)[-+−]?[.,]?\d")
 # Exponents of Fortran, as in `1.0D-02`.
 _FORTRAN = re.compile(r"(?<=[\d.])[dD](?=[+-]?\d)")
-# Names of x in headers, as `_bare` makes them.
-_ALONG = re.compile(r"x|(?:x[-_]?)?(?:pos(?:ition)?|dist(?:ance)?|length)\.?(?:[-_]?x)?|lateral|abscissa|travers?e?|travel")
+# Names of x and of heights in headers, as `_bare` makes them.
+_ALONG = re.compile(
+    r"x|(?:x[-_]?)?(?:pos(?:ition)?|dist(?:ance)?|length|weg|strecke|l(?:ä|ae)nge|abstand|way|path)\.?(?:[-_]?x)?|lateral|abs[cz]iss[ae]"
+    r"|travers?e?|travel"
+)
+_ACROSS = re.compile(r"(?:z[-_]?)?(?:h(?:ö|oe|o)he|height|z)(?:[-_]?z)?")
+# Words of a row that is none of the points.
+_SUMMARY = re.compile(r"(?:mean|average|avg|mittel(?:wert)?|median|sum(?:me)?|total|count|anzahl|std(?:ev)?|rms)\.?", re.IGNORECASE)
 # Most rows of a footer of numbers, such as the count and the mean of the points.
 _FOOTER = 8
 
@@ -162,9 +168,10 @@ def read_profile(
     columns : (int, int) or (str, str), optional
         Columns of x and z in a text, counted from 1, or their names in the header, with or without
         the unit. Texts of two columns do not need them: z comes first where a header says so, as in
-        ``Height; Position``.
+        ``Height; Position`` and ``Höhe; Weg``.
     file_units : (str, str), optional
-        Units of x and z in a text, in place of those that its header states.
+        Units of x and z in a text, in place of those that its header states; you are warned if they
+        differ.
     skip_missing : bool
         True to leave out points that were not measured wherever they are: a spline then bridges
         the gaps. By default they are left out at the ends only; between others they are an error.
@@ -200,20 +207,20 @@ def read_profile(
     18
     """
     name, data = fspath(path), Path(path).read_bytes()
-    for words, pair in (("columns", columns), ("file_units", file_units)):
-        if pair is not None and (isinstance(pair, str) or len(pair) != 2):
-            raise TypeError(f"{words} is {pair!r}: give two, of x and z")
+    for words, pair, kind, such in (("columns", columns, int | np.integer | str, (1, 2)), ("file_units", file_units, str, ("mm", "um"))):
+        if pair is not None and (np.size(pair) != 2 or not all(isinstance(one, kind) for one in pair)):
+            raise TypeError(f"{words} is {pair!r}: give two, of x and z, such as {such}")
     unit = None if unit is None else _known(unit)
     file_units = None if file_units is None else (_known(file_units[0]), _known(file_units[1]))
     if facing is not None:
         one_of(facing, "facing", ("up", "down"))
-    kind = surfaces.kind_of(name, data)
-    if (row if kind == "text" else columns or file_units) is not None:
-        raise MeasuredFileError(name, f"is {kind}: columns and file_units are for texts, and row is for others")
-    if kind == "text":
+    form = surfaces.kind_of(name, data)
+    if (row if form == "text" else columns or file_units) is not None:
+        raise MeasuredFileError(name, f"is {form}: columns and file_units are for texts, and row is for others")
+    if form == "text":
         points, lines, units, hint = _text(name, data, columns, file_units)
     else:
-        points, lines, units, hint = surfaces.READERS[kind](name, data, row), [], ("m", "m"), ""
+        points, lines, units, hint = surfaces.READERS[form](name, data, row), [], ("m", "m"), ""
     if unit is not None and not units[0]:
         raise MeasuredFileError(name, "states no units: give file_units, such as ('mm', 'um')")
     wanted = units[0] if unit is None else unit
@@ -227,15 +234,16 @@ def read_profile(
     if facing is not None:
         return MeasuredProfile(_facing(points[places], 1.0 if facing == "up" else -1.0), wanted, missing)
     x = points[places, 0]
-    turn = 1 if x[-1] > x[0] else -1
+    turn = 1 if np.median(np.diff(x)) > 0.0 else -1
     if (back := np.flatnonzero(turn * np.diff(x) <= 0.0)).size:
         there, here = x[back[0] : back[0] + 2]
         reason = f"x = {here:g} after {there:g}: x must rise throughout, or fall throughout{hint}"
         remedy = "facing='up' keeps what is seen from above"
         raise _fault(name, lines, int(places[back[0] + 1]), f"{reason}; {remedy}")
-    if abs(x[-1] - x[-2]) > 2.0 * abs(x[-2] - x[0]) and len(x) > 4:
-        reason = f"x = {x[-1]:g} after {x[-2]:g} is farther off than the profile is long"
-        raise _fault(name, lines, int(places[-1]), f"{reason}: leave the line out if it is a count or a mean")
+    for end, where, beside, other in ((-1, "after", -2, 0), (0, "before", 1, -1)):
+        if abs(x[end] - x[beside]) > 2.0 * abs(x[beside] - x[other]) and len(x) > 4:
+            reason = f"x = {x[end]:g} {where} {x[beside]:g} is farther off than the profile is long"
+            raise _fault(name, lines, int(places[end]), f"{reason}: leave the line out if it is a count or a mean")
     return MeasuredProfile(points[places[::turn]], wanted, missing)
 
 
@@ -322,7 +330,7 @@ def _text(
             raise MeasuredFileError(name, reason, line)
     meant = next(((other, z if other != z else x) for other in can_be_x if x not in can_be_x), None)
     hint = f", as column {meant[0]} does (columns={meant})" if meant else ""
-    return points[:, [x - 1, z - 1]], places, file_units or _units(name, heads, x, z), hint
+    return points[:, [x - 1, z - 1]], places, _units(name, heads, file_units, x, z), hint
 
 
 def _table(
@@ -335,13 +343,20 @@ def _table(
     while len(rows[-1][0]) < lead or _number(rows[-1][0][lead - 1]) is None:
         if stray := _stray(name, *rows.pop(), x, z):
             raise stray
-    empty = [line for line, content in enumerate(lines[first:], first + 1) if not content.strip()]
-    body = [cells for cells, line in rows if not empty or line < empty[0]]
-    if _is_footer(body, [cells for cells, _ in rows[len(body) :]], width):
-        rows = rows[: len(body)]
+    empty = next((line for line, content in enumerate(lines[first:], first + 1) if not content.strip()), len(lines) + 1)
+    count = sum(line < empty for _, line in rows)
+    body, behind = [cells for cells, _ in rows[:count]], [cells for cells, _ in rows[count:]]
+    if _is_footer(body, behind, width):
+        rows = rows[:count]
+    elif _is_footer(behind[::-1], body[::-1], width) or _jumps([*body, *behind], count, x):
+        line = rows[count - (count < len(behind))][1]
+        reason = "beside an empty line, over which x does not go on as in the table: put # in front of it if it is no point"
+        raise MeasuredFileError(name, f"{reason}, or take out the empty line", line)
     # More words than columns are a remark, but not numbers where others have words.
     usual = {x, z, *_filled(rows[0][0])}
     for cells, line in rows:
+        if found := next(filter(_SUMMARY.fullmatch, cells), None):
+            raise MeasuredFileError(name, f"{found!r} is no point: put # in front of the line", line)
         if len(cells) < width or (len(cells) > width and not usual.issuperset(_filled(cells))):
             remedy = "; take out separators of thousands" if len(cells) > width else ""
             remedy += _commas([cells for cells, _ in rows], delimiter)
@@ -377,6 +392,17 @@ def _is_footer(body: Sequence[list[str]], behind: Sequence[list[str]], width: in
     steps, length = np.diff(table, axis=0), table[-2] - table[0]
     goes_on = (steps[:-1] * length > 0.0).all(axis=0) & (steps[-1] / length > 0.0) & (steps[-1] / length <= 1.0)
     return not goes_on.any()
+
+
+def _jumps(table: Sequence[list[str]], count: int, x: int) -> bool:
+    """Tells whether few rows lie nearer to others, or farther off, than any two of these, parted from them by a count."""
+    if not 0 < min(count, len(table) - count) <= _FOOTER or len(table) < 4:
+        return False
+    numbers = [_number(cells[x - 1]) if len(cells) >= x else None for cells in table]
+    steps = np.abs(np.diff(np.array(numbers, dtype=np.float64)))
+    usual = np.delete(steps, count - 1)
+    least, most = np.fmin.reduce(usual), np.fmax.reduce(usual)
+    return bool(steps[count - 1] < 0.99 * least or steps[count - 1] > 1.01 * most)
 
 
 def _decoded(name: str, data: bytes) -> str:
@@ -459,8 +485,9 @@ def _heads(header: Sequence[str], delimiter: str | None, width: int) -> list[_He
 
 
 def _bare(head: str) -> str:
-    """Returns the name of a column without its unit, as `x` of `x [mm]` and of `Columns=X`."""
-    return re.sub(r"[\[(/].*|.*=|\s", "", head).lower()
+    """Returns the name of a column without its unit, as `x` of `x [mm]`, `x in mm`, `x_mm` and of `Columns=X`."""
+    name, mark, last = re.sub(r"[\[(/].*|\sin\s.*|.*=", "", head).strip().replace("_", " ").rpartition(" ")
+    return re.sub(r"\s", "", name if mark and _symbol(last) else f"{name}{mark}{last}").lower()
 
 
 def _numbered(name: str, heads: Sequence[_Head], column: int | str) -> int:
@@ -489,9 +516,14 @@ def _names(heads: Sequence[_Head], delimiter: str | None) -> _Head | None:
 
 
 def _in_order(heads: Sequence[_Head]) -> tuple[int, int]:
-    """Returns the columns of x and z of two: the second is x if a header calls it so, and not the first."""
-    of = [[_ALONG.fullmatch(_bare(cell)) is not None for cell in head.ways[0]] for head in heads]
-    return (2, 1) if [False, True] in of else (1, 2)
+    """Returns the columns of x and z of two: the second is x if a header calls it so, or the first a height, not both."""
+    names = [[_bare(cell) for cell in head.ways[0]] for head in heads]
+    is_swapped = [
+        [bool(_ALONG.fullmatch(cell)) for cell in cells] == [False, True]
+        or [bool(_ACROSS.fullmatch(cell)) for cell in cells] == [True, False]
+        for cells in names
+    ]
+    return (2, 1) if any(is_swapped) else (1, 2)
 
 
 def _columns_to_try(heads: Sequence[_Head], width: int, can_be_x: Sequence[int], filled: Sequence[int]) -> str:
@@ -528,12 +560,18 @@ def _unit_of(head: str) -> tuple[str, str]:
     return next(filter(None, map(_symbol, words)), ""), stated[0] if stated else ""
 
 
-def _units(name: str, heads: Sequence[_Head], *columns: int) -> tuple[str, str]:
-    """Returns the units of x and z that the header states; two empty ones if it states none."""
+def _units(name: str, heads: Sequence[_Head], given: tuple[str, str] | None, *columns: int) -> tuple[str, str]:
+    """Returns the units given, or those of x and z that the header states; two empty ones without any."""
     for line, _, ways in heads:
         if max(columns) > len(ways[0]):
             continue
         (x, in_x), (z, in_z) = (_unit_of(ways[0][column - 1]) for column in columns)
+        if given is not None:
+            # A word of a title may look like a unit.
+            if (in_x or in_z or (x and z)) and (x or given[0], z or given[1]) != given:
+                says = f"line {line} states {x or 'no unit'} for x and {z or 'no unit'} for z"
+                warnings.warn(f"{name}: {says}: file_units={given} is taken in its place", stacklevel=4)
+            continue
         if x and z:
             return x, z
         unit = x or z or "mm"
@@ -547,4 +585,4 @@ def _units(name: str, heads: Sequence[_Head], *columns: int) -> tuple[str, str]:
         if (x or z) and (line == heads[0].line or in_x or in_z):
             reason = f"only one of x and z has a unit that is known: give file_units, such as {(unit, unit)}"
             raise MeasuredFileError(name, reason, line)
-    return "", ""
+    return given or ("", "")
