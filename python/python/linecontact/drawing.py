@@ -188,11 +188,13 @@ def _title(solution: Solution, units: Sequence[str], slip: PartialSlip | None) -
     if (count := len(solution.intervals)) > 2:
         # All of them would be wider than the picture.
         contacts = f"{count} contacts from {solution.hull.left:.6g} to {solution.hull.right:.6g}"
+    after = period(solution.contact)
+    repeated = "" if after is None else f", period {after:.6g}{length}"
     then = ", " if slip is None else f", force {slip.force:.6g}{load}\n"
     loaded, _, peak = loaded.partition(", ")
     value, at, x = peak.partition(" at x = ")
-    peak = f"{value}{pressure}{at}{x}{length}" if "infinite" not in value else f"{peak}{length}"
-    return f"{contacts}{length}\n{loaded}{load}{then}{peak}"
+    peak = f"{value}{pressure}{at}{x}{length}" if "infinite" not in value else f"pressure {_infinite_words(solution, length)}"
+    return f"{contacts}{length}{repeated}\n{loaded}{load}{then}{peak}"
 
 
 def _draw_points(axes: Axes, contact: Contact, up: float, tilt: float) -> None:
@@ -258,24 +260,29 @@ def covered(solution: Solution) -> tuple[float, float]:
 def _scale(axes: Axes, solution: Solution, lowest: float, slip: PartialSlip | None, length: str) -> None:
     """Scales the axis of pressure, cut where the pressure is infinite, which it then says."""
     axes.set_ylim(bottom=lowest)
-    if places := _infinite_at(solution):
+    if _infinite_at(solution):
         top = 1.05 * highest(solution) * max(1.0, slip.friction if slip else 1.0)
         axes.set_ylim(max(lowest, -top), top)
-        where = f"x = {', '.join(f'{x:.6g}' for x in places)} {length}" if len(places) < 5 else f"{len(places)} places"
-        words = f"infinite at {where}".rstrip()
         # Below the axes, where no line goes through it.
-        axes.text(1.0, -0.05, words, transform=axes.transAxes, ha="right", va="top", fontsize="small")
+        axes.text(1.0, -0.05, _infinite_words(solution, f" {length}"), transform=axes.transAxes, ha="right", va="top", fontsize="small")
 
 
-def _draw_shear(axes: Axes, x: FloatArray, depth: FloatArray, shear: FloatArray, solution: Solution) -> ContourSet:
-    """Draws the shear on a grid; larger values, next to a place of infinite pressure, share one colour."""
+def _infinite_words(solution: Solution, length: str) -> str:
+    """Tells where the pressure is infinite."""
+    places = _infinite_at(solution)
+    where = f"x = {', '.join(f'{x:.6g}' for x in places)}{length}" if len(places) < 5 else f"{len(places)} places"
+    return f"infinite at {where}".rstrip()
+
+
+def _draw_shears(axes: Sequence[Axes], x: FloatArray, shears: Sequence[tuple[FloatArray, FloatArray]], solution: Solution) -> list[ContourSet]:
+    """Draws the shear over depths in one scale; larger values, next to a place of infinite pressure, share one colour."""
     from matplotlib.ticker import MaxNLocator
 
-    deep = shear
-    if _infinite_at(solution):
-        deep = shear[depth >= min(SHALLOW * solution.half_width, depth[-1])]
-    levels = MaxNLocator(13).tick_values(0.0, float(np.max(deep)))
-    return axes.contourf(x, depth, shear, levels=levels, cmap="cividis", extend="neither" if deep is shear else "max")
+    is_cut = bool(_infinite_at(solution))
+    shown = [shear[depth >= min(SHALLOW * solution.half_width, depth[-1])] if is_cut else shear for depth, shear in shears]
+    levels = MaxNLocator(13).tick_values(0.0, max(float(np.max(one)) for one in shown))
+    extend = "max" if is_cut else "neither"
+    return [on.contourf(x, *one, levels=levels, cmap="cividis", extend=extend) for on, one in zip(axes, shears, strict=True)]
 
 
 def plot(solution: Solution, units: Sequence[str], given: Figure | None, slip: PartialSlip | None = None) -> Figure:
@@ -300,6 +307,7 @@ def plot(solution: Solution, units: Sequence[str], given: Figure | None, slip: P
     bodies, pressure, *shears = figure.subplots(2 + len(of_each), 1, sharex=True)
 
     lower, upper = before_loading(contact, x, solution.tilt)
+    bodies.set_xlim(x[0], x[-1])
     _draw_bodies(bodies, x, (lower, upper), lengths)
     _draw_points(bodies, contact, float(np.nanmax(upper - heights(contact, contact.upper, x))), solution.tilt)
     bodies.set_title(_title(solution, units, slip), fontsize="medium")
@@ -320,12 +328,14 @@ def plot(solution: Solution, units: Sequence[str], given: Figure | None, slip: P
     columns = max(_COLUMNS // len(solution.intervals), 3)
     below_each = [np.linspace(*interval, columns) for interval in solution.intervals]
     across = np.unique(np.concatenate([np.linspace(x[0], x[-1], _COLUMNS), *below_each]))
-    for below, (body, deepest) in zip(shears, of_each, strict=True):
+    found = list[tuple["FloatArray", "FloatArray"]]()
+    for body, deepest in of_each:
         # In a layer on a rigid base down to the base.
         depth = np.geomspace(min(0.02 * narrowest, 0.1 * deepest), min(_DEPTH * on.half_width, deepest), 48)
         grid = across[None, :], np.minimum(depth, deepest)[:, None]
         stress = solution.stress(*grid, body=body) if slip is None else slip.stress("lower", *grid)
-        drawn = _draw_shear(below, across, depth, stress.max_shear(), solution)
+        found.append((depth, stress.max_shear()))
+    for below, drawn, (body, _) in zip(shears, _draw_shears(shears, across, found, solution), of_each, strict=True):
         shear = f"largest shear in {body} body" if body else "largest shear"
         figure.colorbar(drawn, ax=below, label=f"{shear}{pressures}")
         below.invert_yaxis()

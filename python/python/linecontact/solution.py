@@ -969,13 +969,15 @@ class Solution:
         return str(self._found)
 
     def __repr__(self) -> str:
+        first, *rest = str(self).splitlines()
         if self.is_apart:
-            return f"<Solution: apart by {self.separation:.6g}>"
-        contacts = ", ".join(f"[{on.left:.6g}, {on.right:.6g}]" for on in self.intervals)
-        count = len(self.intervals)
-        which = "contact" if count == 1 else f"{count} contacts"
-        checked = "checked" if self.is_checked else "not checked"
-        return f"<Solution: {which} {contacts}, load {self.load:.6g}, {checked}>"
+            return f"<Solution: {first}>"
+        words = [first, f"load {self.load:.6g}", "checked" if self.is_checked else "not checked"]
+        if self.limits_error is not None and not self.limits_error < 1e-3:
+            words.append(f"limits to {self.limits_error:.1g} of the half-width")
+        if rest[2:]:
+            words.append("with warnings: print it")
+        return f"<Solution: {', '.join(words)}>"
 
     def _repr_svg_(self) -> str:
         """Draws the pressure, for notebooks."""
