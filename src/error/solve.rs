@@ -28,7 +28,7 @@ pub enum SolveError<T: Real> {
     /// The bodies of a row touch all over a period, or so nearly that the gap left is not solved.
     #[error(
         "the bodies touch all over the period, or their widest gap is below 2 % of a contact: the load is {}, and \
-         complete contact begins at about {}; lower the load", six(*load), six(*complete)
+         complete contact begins at about {}; lower the load, or move one of two like bodies", six(*load), six(*complete)
     )]
     CompleteContact {
         /// Load as given; that of complete contact, if none was given.

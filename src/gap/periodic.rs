@@ -5,7 +5,7 @@
 
 use super::repeated::Repeated;
 use super::{Gap, Sampler, Shape};
-use crate::{Body, ContactError, Cost, InputError, Real};
+use crate::{Body, ContactError, Cost, InputError, Real, Side};
 use std::sync::Arc;
 
 /// Number of places at which the first cut is sought; they lie as multiples of the golden ratio do,
@@ -51,16 +51,19 @@ impl<T: Real> Gap<'_, T> {
         let Self { watch, resolution, number, .. } = *self;
         let new = Self { watch, resolution, number, convex: false, period: Some(period), ..new };
         let gap = new.cut_at(start);
-        let mut sampler = Sampler::default();
+        let (mut sampler, mut steep) = (Sampler::default(), T::zero());
         let mut samples = Vec::with_capacity(CUT_PLACES);
         // The end of the description is the first: where it is the highest place, results are in x
         // as described.
         for i in 0..CUT_PLACES {
             let x = start + period * T::of((i as f64 * GOLDEN).fract());
-            samples.push([x, sampler.height(&gap, x)?, sampler.slope(&gap, x)?]);
+            let mut slope = |body| sampler.body_slope(&gap, body, x, Side::Left);
+            let [lower, upper] = [slope(Body::Lower)?, slope(Body::Upper)?];
+            steep = steep.max(lower.abs()).max(upper.abs());
+            samples.push([x, sampler.height(&gap, x)?, upper - lower]);
         }
         cost.heights += sampler.cost.evaluations;
-        self.check_ends(&samples)?;
+        self.check_ends(&samples, [sampler.highest, steep])?;
         let higher = |one: [T; 3], other: [T; 3]| if other[1] > one[1] { other } else { one };
         let [highest, ..] =
             samples.into_iter().fold([start, -T::one() / T::zero(), T::zero()], higher);
@@ -79,12 +82,8 @@ impl<T: Real> Gap<'_, T> {
             let [left, right] = surface.extent();
             if (right - left - period).abs() > tolerance::<T>() * period {
                 let ends = [left, right - period];
-                return Err(InputError::NotPeriodic {
-                    body,
-                    what: "x, less the period on the right,",
-                    ends,
-                }
-                .into());
+                let what = "x, less the period on the right,";
+                return Err(InputError::NotPeriodic { body, what, ends }.into());
             }
             start = start.or(Some(left));
         }
@@ -92,8 +91,9 @@ impl<T: Real> Gap<'_, T> {
     }
 
     /// Checks that heights and slopes of each body are the same at both ends of a period, given
-    /// places all over it with the height and the slope of the gap there.
-    fn check_ends(&self, samples: &[[T; 3]]) -> Result<(), ContactError<T>> {
+    /// places all over it with the height and the slope of the gap there, and the largest of the
+    /// bodies, whose rounding is no difference: bodies may be alike.
+    fn check_ends(&self, samples: &[[T; 3]], largest: [T; 2]) -> Result<(), ContactError<T>> {
         let zero = T::zero();
         let [low, high, steepest] = samples.iter().fold([zero; 3], |[low, high, steepest], at| {
             let above = at[1] - samples[0][1];
@@ -109,8 +109,8 @@ impl<T: Real> Gap<'_, T> {
             let of_slopes = [first.end_slope(0, &mut 0), last.end_slope(1, &mut 0)];
             let pairs =
                 [("the height", of_heights, high - low), ("the slope", of_slopes, steepest)];
-            for (what, ends, size) in pairs {
-                let rounding = T::of(64.0) * T::epsilon() * (ends[0].abs() + ends[1].abs());
+            for ((what, ends, size), largest) in pairs.into_iter().zip(largest) {
+                let rounding = T::of(64.0) * T::epsilon() * largest;
                 let is_same = (ends[1] - ends[0]).abs() <= tolerance::<T>() * size + rounding;
                 if !is_same {
                     return Err(InputError::NotPeriodic { body, what, ends }.into());
@@ -214,7 +214,7 @@ impl<T: Real> Gap<'_, T> {
             let by = slope / bend;
             x -= if by.abs() < step { by } else { T::zero() };
         }
-        Ok(-kappa * T::frac_1_pi() * period * least)
+        Ok(kappa * T::frac_1_pi() * period * (T::zero() - least))
     }
 }
 

@@ -370,8 +370,16 @@ fn what_is_not_possible_is_refused() {
         );
         assert!(is_typed, "{control:?}: {fault}");
     }
-    let fault = error(Contact::new(&Flat, &Flat).unwrap().period(PERIOD), load);
-    assert!(matches!(fault, ContactError::Solve(SolveError::CompleteContact { .. })), "{fault}");
+    // Of like bodies no gap is left.
+    for body in [&Flat as &dyn ParametricProfile<f64>, &crest, &waves(0.1, &[[0.02, 1.0, 0.7]])] {
+        let like = Contact::new(body, body).unwrap().contact_modulus(1.0).period(PERIOD);
+        let fault = error(like, load);
+        let ContactError::Solve(SolveError::CompleteContact { complete, .. }) = fault else {
+            panic!("{fault}")
+        };
+        assert!(complete.abs() < 1e-12, "{complete}");
+        assert!(fault.to_string().contains("move one of two like bodies"), "{fault}");
+    }
 }
 
 /// Near the load of complete contact, and above it, a search took a hundred solves to its error.
