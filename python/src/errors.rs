@@ -260,6 +260,7 @@ table! {
     Duplicate { row, x };
     Unsorted { row, x, before };
     Outlier { row, x, y, expected, deviations };
+    Period { period, first, last };
     Limit { deviations };
     Overflow { row, x, before };
 }

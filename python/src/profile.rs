@@ -66,7 +66,7 @@ impl Recipe {
             // Measured points are not parameters.
             Self::Spline(points, fit) => Shape::Spline {
                 points: points.iter().map(|point| point.map(of)).collect(),
-                fit: Fit { smooth: fit.smooth, outliers: fit.outliers.map(of) },
+                fit: Fit { smooth: fit.smooth, outliers: fit.outliers.map(of), period: fit.period.map(of) },
             },
             Self::Curve(curve) => {
                 let (curve, to) = (lift.curve(curve)?, placement(steps, lift)?);
@@ -168,10 +168,11 @@ impl Profile {
         points: PyReadonlyArray2<'_, f64>,
         smooth: bool,
         outliers: Option<f64>,
+        period: Option<f64>,
     ) -> PyResult<Self> {
         let rows = points.as_array();
         let points: Vec<_> = rows.rows().into_iter().map(|row| [row[0], row[1]]).collect();
-        let fit = Fit { smooth, outliers };
+        let fit = Fit { smooth, outliers, period };
         let spline = call::library(py, || Spline::fitted(&points, fit))?;
         let (noise, recipe) = (spline.noise(), Arc::new(Recipe::Spline(points, fit)));
         Ok(Self { recipe, steps: Vec::new(), built: Arc::new(spline), noise })

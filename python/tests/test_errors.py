@@ -184,6 +184,11 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (lambda: spline((0, 0), (-1, 1)), "SplineUnsortedError", {"row": 2, "before": 0.0}),
     (outlier, "SplineOutlierError", {"row": 8}),
     (
+        lambda: spline((0, 0), (1, 1), (2, 1), (3, 0), period=3.0),
+        "SplinePeriodError",
+        {"period": 3.0, "first": 0.0, "last": 3.0},
+    ),
+    (
         lambda: spline((0, 0), (1, 1), (2, 0), (3, 1), outliers=0.0),
         "SplineLimitError",
         {"deviations": 0.0},

@@ -789,3 +789,18 @@ def test_drawn_bodies_just_touch() -> None:
     figure = lc.solve(lc.Line(0.0, (-3, 3)).rotated(0.0), roller, kappa=1.0, load=0.01).plot()
     upper, lower = (np.asarray(line.get_ydata()) for line in figure.axes[0].lines[:2])
     assert math.isclose(np.min(upper - lower), 0.0, abs_tol=1e-12)
+
+
+def test_measured_points_of_a_period() -> None:
+    random, x = np.random.RandomState(3), np.linspace(0.0, 1.3, 200, endpoint=False)
+    points = np.column_stack([x, 0.02 * (1 - np.cos(2 * np.pi * x / 1.3)) + 1e-6 * random.normal(size=x.size)])
+    for smooth in (False, True):
+        body = lc.Spline(points, smooth=smooth, period=1.3)
+        solution = lc.solve(FLAT, body, contact_modulus=1.0, period=1.3, load=0.01)
+        # Westergaard's contact.
+        assert math.isclose(solution.load, math.pi * 0.02 * math.sin(math.pi * solution.half_width / 1.3) ** 2, rel_tol=1e-3)
+        assert body == pickle.loads(pickle.dumps(body)) != lc.Spline(points, smooth=smooth) and "period=1.3" in repr(body)
+    with pytest.raises(lc.errors.NotPeriodicError, match=r"of points give Spline\(points, period=...\)"):
+        lc.solve(FLAT, lc.Spline(points), contact_modulus=1.0, period=float(x[-1]), load=0.01)
+    with pytest.raises(lc.errors.SplinePeriodError, match="must end behind the last one"):
+        lc.Spline(points, period=float(x[-1]))

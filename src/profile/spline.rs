@@ -56,11 +56,34 @@ pub struct Fit<T> {
     /// that is nearly upright looks like one. In a file 0 stands for `None`.
     #[cfg_attr(feature = "serde", serde(with = "stored"))]
     pub outliers: Option<T>,
+    /// Length after which the body repeats, for [`Contact::period`](crate::Contact::period): one
+    /// period from the first point on is described, which the first point ends, too, with the same
+    /// slope and curvature. The points are those of one period, without that at its end. Default
+    /// `None`: the ends are free.
+    ///
+    /// ```
+    /// use linecontact::profile::{Fit, Spline};
+    /// use linecontact::{Contact, Control, Flat};
+    /// use std::f64::consts::PI;
+    ///
+    /// let points: Vec<_> = (0..100).map(|i| 0.01 * f64::from(i)).map(|x| [x, -0.01 * (2.0 * PI * x).cos()]).collect();
+    /// let body = Spline::fitted(&points, Fit { period: Some(1.0), ..Fit::default() })?;
+    /// let contact = Contact::new(&Flat, &body)?.contact_modulus(1.0).period(1.0);
+    /// let solution = contact.solve(Control::Load(0.005 * PI))?; // Westergaard: half of that which closes all gaps
+    /// assert!((solution.hull().half_width() - 0.25).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub period: Option<T>,
 }
+
+/// Number of points beside a period after which its end is forgotten: a slope changes the next by
+/// half of its own change or less, at even distances by 0.27 of it.
+const FORGOTTEN: usize = 64;
 
 impl<T: Real> Default for Fit<T> {
     fn default() -> Self {
-        Self { smooth: false, outliers: Some(T::of(10.0)) }
+        Self { smooth: false, outliers: Some(T::of(10.0)), period: None }
     }
 }
 
@@ -144,8 +167,10 @@ impl<T: Real> Spline<T> {
         if let Some(most) = fit.outliers {
             points::check_outliers(points, most)?;
         }
-        if fit.smooth {
-            return Self::smoothed(points);
+        match fit.period {
+            Some(period) => return Self::repeated(points, fit, period),
+            None if fit.smooth => return Self::smoothed(points),
+            None => {}
         }
         let knots = points.iter().zip(slopes::slopes(points)).map(|(&[_, y], slope)| [y, slope]);
         let x: Vec<T> = points.iter().map(|point| point[0]).collect();
@@ -184,7 +209,37 @@ impl<T: Real> Spline<T> {
         if placed[placed.len() - 1][0] < placed[0][0] {
             placed.reverse();
         }
-        Self::fitted(&placed, Fit { outliers: None, ..fit })
+        let period = fit.period.map(|period| {
+            let [from, to] = [T::zero(), period].map(|x| placement.apply([x, T::zero()]));
+            // A body that is turned does not repeat along x.
+            if (to[1] - from[1]).is_zero() { (to[0] - from[0]).abs() } else { T::zero() }
+        });
+        Self::fitted(&placed, Fit { outliers: None, period, ..fit })
+    }
+
+    /// Fits the middle one of several periods.
+    fn repeated(points: &[[T; 2]], fit: Fit<T>, period: T) -> Result<Self, SplineError<T>> {
+        let (first, last) = (points[0][0], points[points.len() - 1][0]);
+        let left = first + period - last;
+        let rounding = T::of(64.0) * T::epsilon() * (first.abs() + period);
+        if !(left > rounding && left.is_finite()) {
+            return Err(SplineError::Period { period, first, last });
+        }
+        let beside = FORGOTTEN / points.len() + 1;
+        let copy = |i| {
+            let by = period * (T::count(i) - T::count(beside));
+            points.iter().map(move |&[x, y]| [x + by, y])
+        };
+        let row: Vec<_> = (0..=2 * beside).flat_map(copy).collect();
+        let row = Self::fit(&row, Fit { outliers: None, period: None, ..fit })?;
+        if fit.smooth {
+            let heights: Vec<_> = points.iter().map(|&[x, _]| [x, row.at(x).y]).collect();
+            let spline = Self::repeated(&heights, Fit { smooth: false, ..fit }, period)?;
+            return Ok(Self { noise: row.noise, smooth: row.smooth, ..spline });
+        }
+        let x: Vec<_> = points.iter().map(|point| point[0]).chain([first + period]).collect();
+        let knots: Vec<_> = x.iter().map(|&x| row.at(x)).map(|at| [at.y, at.dy]).collect();
+        Self::of(&x, &knots)
     }
 
     fn smoothed(points: &[[T; 2]]) -> Result<Self, SplineError<T>> {

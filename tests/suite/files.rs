@@ -85,7 +85,8 @@ fn settings_are_kept_and_have_their_defaults() {
     is_kept(Bisection { tolerance: StoppingCriteria::relative(1e-3) });
     is_kept(Panels { tolerance: 1e-7 });
     is_kept(Midpoint { exponents: Exponents::Even, ..Midpoint::DEFAULT });
-    is_kept(Fit { smooth: true, outliers: None::<f64> });
+    is_kept(Fit { smooth: true, outliers: None::<f64>, period: None });
+    is_kept(Fit { period: Some(0.7), ..Fit::default() });
     is_kept(Edge::<f64>::Free);
     is_kept(Edge::FreeUntil(0.3));
     is_kept(EdgePressure::zero(0.1, 1e-3));

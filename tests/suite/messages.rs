@@ -605,6 +605,10 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
         (SplineError::NotFinite { row: 12, x: 1.5, y: f64::NAN }, "remove the row"),
         (SplineError::Duplicate { row: 12, x: 1.5 }, "row 12"),
         (SplineError::Unsorted { row: 12, x: 1.5, before: 2.5 }, "after 2.5"),
+        (
+            SplineError::Period { period: 1.5, first: 0.25, last: 1.75 },
+            "the period 1.5 from the first point, x = 0.25, must end behind the last one, x = 1.75",
+        ),
     ] {
         assert_says(&error, &[words]);
     }

@@ -10,6 +10,7 @@ use linecontact::{
     Piecewise, Uncertainty,
 };
 use nalgebra::{DMatrix, DVector};
+use std::f64::consts::PI;
 
 /// Returns points of y(x) at distances that vary by a factor of three.
 fn uneven(n: usize, y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
@@ -174,7 +175,7 @@ fn the_smoothed_spline_is_the_most_likely() {
             *x = (*x - from) / (to - from);
             *y = 3.0 + 0.5 * *x + amplitude * (6.0 * *x).cos() + noise * random.normal();
         }
-        let fit = Fit { smooth: true, outliers: None };
+        let fit = Fit { smooth: true, outliers: None, period: None };
         let spline = Spline::fitted(&points, fit).unwrap();
         let slopes = [[0.1, 1.0], [0.25, -2.0], [0.7, 0.5]];
         let of = |log: f64| Dense::new(&points, spline.pieces(), log.exp(), &slopes);
@@ -209,7 +210,7 @@ fn the_smoothed_spline_is_the_most_likely() {
 /// Heights of a circle that are known to rounding only, or exactly those of a parabola or a line.
 #[test]
 fn exact_points_are_smoothed_to_their_curve() {
-    let fit = Fit { smooth: true, outliers: None };
+    let fit = Fit { smooth: true, outliers: None, period: None };
     for points in [even(41, |x| x * x / 2.0), uneven(300, |x| 3.0 - x), even(200, circle(2.0))] {
         let spline = Spline::fitted(&points, fit).unwrap();
         for &[x, y] in &points {
@@ -364,7 +365,8 @@ fn bad_points_are_named_by_their_row() {
         assert!(matches!(error, Err(SplineError::Limit { .. })), "{limit}");
     }
     let huge: Vec<_> = points.iter().map(|&[x, y]| [x, 1e308 * (y - 0.5) * 3.0]).collect();
-    let error = Spline::fitted(&huge, Fit { smooth: true, outliers: None }).map(|_| ());
+    let error =
+        Spline::fitted(&huge, Fit { smooth: true, outliers: None, period: None }).map(|_| ());
     assert!(matches!(error, Err(SplineError::Overflow { row: 50, .. })), "{error:?}");
 }
 
@@ -475,4 +477,88 @@ fn rows_of_placed_points_are_those_measured() {
     assert!(matches!(Spline::fitted_at(&[], fit, to), Err(SplineError::TooFew { .. })));
     let nowhere = Placement::default().scaled(0.0);
     assert!(Spline::fitted_at(&even(50, |x: f64| x * x), fit, nowhere).is_err());
+}
+
+#[test]
+fn points_of_a_period_are_closed_to_it() {
+    const PERIOD: f64 = 1.3;
+    let mut random = Shares(11);
+    for count in [4, 7, 40, 200] {
+        let mut point = |i: i32| {
+            let within = if i > 0 { random.between(0.0, 0.8) } else { 0.0 };
+            let share = (f64::from(i) + within) / f64::from(count);
+            [PERIOD * share, 0.3 * (2.0 * PI * share).sin() + 0.1 * random.normal()]
+        };
+        let mut points: Vec<_> = (0..count).map(&mut point).collect();
+        let fit = Fit { outliers: None, period: Some(PERIOD), ..Fit::default() };
+        let body = Spline::fitted(&points, fit).unwrap();
+        assert_eq!(body.domain(), [0.0, PERIOD]);
+        // Height, slope and curvature go on over the end; the slope of a piece is a parabola.
+        let curvature = |piece: usize, end: usize| {
+            let [from, to] = body.piece(piece).unwrap().x();
+            let [g0, g1, g2] = [from, 0.5 * (from + to), to]
+                .map(|x| body.piece(piece).unwrap().curve.slope_at(x).unwrap());
+            [4.0 * g1 - 3.0 * g0 - g2, 3.0 * g2 - 4.0 * g1 + g0][end] / (to - from)
+        };
+        let [start, end] = [0.0, PERIOD].map(|x| body.at(x));
+        let [bend, back] = [curvature(0, 0), curvature(count as usize - 1, 1)];
+        assert!(
+            (start.y - end.y).abs() < 1e-14
+                && (start.dy - end.dy).abs() < 1e-11 * (1.0 + start.dy.abs()),
+            "{count}"
+        );
+        assert!((bend - back).abs() < 1e-9 * (1.0 + bend.abs()), "{count}: {bend} {back}");
+        // Where the period begins is of no account.
+        let place = 0.37 * points[1][0] + 0.63 * points[2][0];
+        points.rotate_left(2);
+        points.iter_mut().rev().take(2).for_each(|point| point[0] += PERIOD);
+        let again = Spline::fitted(&points, fit).unwrap();
+        assert!((again.at(place + PERIOD).y - body.at(place).y).abs() < 1e-13, "{count}");
+    }
+}
+
+#[test]
+fn noisy_points_of_a_period_are_smoothed_over_its_end() {
+    let (mut random, noise) = (Shares(5), 1e-4);
+    let height = |x: f64| 0.01 * (2.0 * PI * x).cos() + 0.002 * (6.0 * PI * x).sin();
+    let points: Vec<_> = (0..300)
+        .map(|i| f64::from(i) / 300.0)
+        .map(|x| [x, height(x) + noise * random.normal()])
+        .collect();
+    let fit = Fit { smooth: true, period: Some(1.0), ..Fit::default() };
+    let body = Spline::fitted(&points, fit).unwrap();
+    assert!((body.noise() / noise - 1.0).abs() < 0.1, "{}", body.noise());
+    for x in [0.0, 0.001, 0.3, 0.5, 0.999, 1.0] {
+        assert!((body.at(x).y - height(x)).abs() < 0.6 * noise, "{x}");
+    }
+    let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(1.0).period(1.0);
+    let solution = contact.solve(Control::Load(0.005)).unwrap();
+    let exact = Curve::new([0.0, 1.0], |k: f64| CurvePoint {
+        x: k,
+        y: height(k),
+        dx: 1.0,
+        dy: PI * (0.012 * (6.0 * PI * k).cos() - 0.02 * (2.0 * PI * k).sin()),
+    });
+    let exact = Contact::new(&Flat, &exact).unwrap().contact_modulus(1.0).period(1.0);
+    let width = exact.solve(Control::Load(0.005)).unwrap().hull().half_width();
+    assert!((solution.hull().half_width() / width - 1.0).abs() < 1e-2);
+    // The ends are known as well as the middle.
+    let [end, middle] = [0.0, 0.5].map(|x| body.slope_deviation(&[x], &[1.0]).unwrap());
+    assert!(middle > 0.0 && (end / middle - 1.0).abs() < 0.01, "{end} {middle}");
+    let to = Placement::default().mirrored().flipped().scaled(3.0).shifted(0.2, 5.0);
+    let placed = Spline::fitted_at(&points, fit, to).unwrap();
+    let [from, end] = placed.domain();
+    assert!(
+        (end - from - 3.0).abs() < 1e-14 && (placed.at(from).y - placed.at(end).y).abs() < 1e-13
+    );
+    let turned = Spline::fitted_at(&points, fit, Placement::default().rotated(0.1));
+    assert!(matches!(turned, Err(SplineError::Period { .. })));
+    for period in [-1.0, 0.0, 0.9, 299.0 / 300.0, f64::NAN, f64::INFINITY] {
+        let error =
+            Spline::fitted(&points, Fit { period: Some(period), ..fit }).map(|_| ()).unwrap_err();
+        assert!(
+            matches!(error, SplineError::Period { last, .. } if last == 299.0 / 300.0),
+            "{error}"
+        );
+    }
 }

@@ -514,6 +514,10 @@ class Spline(Body):
     outliers : float or None
         Distance from the cubic through its neighbours at which a point is refused, in standard
         deviations; None disables the check.
+    period : float, optional
+        Length after which the body repeats, for the period of a `Contact`: the first point ends
+        the period, too, with the same slope and curvature. The points are those of one period,
+        without that at its end. By default the ends are free.
 
     Raises
     ------
@@ -544,7 +548,12 @@ class Spline(Body):
 
     @named
     def __init__(
-        self, points: npt.ArrayLike | MeasuredProfile, *, smooth: bool = False, outliers: float | None = 10.0
+        self,
+        points: npt.ArrayLike | MeasuredProfile,
+        *,
+        smooth: bool = False,
+        outliers: float | None = 10.0,
+        period: float | None = None,
     ) -> None:
         given = points.points if isinstance(points, MeasuredProfile) else points
         rows = as_numbers(given, "points").copy()
@@ -555,7 +564,8 @@ class Spline(Body):
         rows.setflags(write=False)
         self.points, self.smooth = rows, bool(smooth)
         self.outliers = None if outliers is None else as_number(outliers, "outliers")
-        self._profile = _native.Profile.spline(rows, self.smooth, self.outliers)
+        self.period = None if period is None else as_number(period, "period")
+        self._profile = _native.Profile.spline(rows, *self._fit)
 
     @property
     def noise(self) -> float:
@@ -565,26 +575,29 @@ class Spline(Body):
         """
         return self._profile.noise
 
+    @property
+    def _fit(self) -> tuple[bool, float | None, float | None]:
+        return self.smooth, self.outliers, self.period
+
     def _arguments(self) -> tuple[Any, ...]:
-        return self.points, self.smooth, self.outliers
+        return self.points, *self._fit
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return partial(type(self), smooth=self.smooth, outliers=self.outliers), (self.points,)
+        return partial(type(self), smooth=self.smooth, outliers=self.outliers, period=self.period), (self.points,)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Spline):
             return False if isinstance(other, Body) else NotImplemented
-        same = np.array_equal(self.points, other.points)
-        return same and (self.smooth, self.outliers) == (other.smooth, other.outliers)
+        return np.array_equal(self.points, other.points) and self._fit == other._fit
 
     def __hash__(self) -> int:
-        return hash((self.points.tobytes(), self.smooth, self.outliers))
+        return hash((self.points.tobytes(), self._fit))
 
     def __repr__(self) -> str:
         x = self.points[:, 0]
         return (
             f"Spline(<{len(x)} points from x = {x[0]:g} to {x[-1]:g}>, smooth={self.smooth}, "
-            f"outliers={self.outliers})"
+            f"outliers={self.outliers}{'' if self.period is None else f', period={self.period}'})"
         )
 
 

@@ -44,6 +44,7 @@ _IN_PYTHON = {
     "by Piecewise::with_tolerance": "by Piecewise(parts, tolerance)",
     "Fit::smooth": "smooth=True",
     "set Fit::outliers to None": "give outliers=None",
+    "of points set Fit::period": "of points give Spline(points, period=...)",
     "Fit::outliers is": "outliers is",
     "edge_singularities()": "edge_singularities",
 }
@@ -1801,6 +1802,24 @@ class SplineOutlierError(InputError):
     y: float
     expected: float
     deviations: float
+
+
+class SplinePeriodError(InputError):
+    """A period is not a positive finite number, or its end is not behind the last point.
+
+    Attributes
+    ----------
+    period : float
+        Period as given; 0 of a body that is turned.
+    first : float
+        x of the first point.
+    last : float
+        x of the last point.
+    """
+
+    period: float
+    first: float
+    last: float
 
 
 class SplineLimitError(InputError):

@@ -163,7 +163,7 @@ def _read_body(fields: Fields) -> Body:
     body: Body
     if kind == "spline":
         fit = shape["fit"]
-        body = Spline(shape["points"], smooth=fit["smooth"], outliers=fit["outliers"] or None)
+        body = Spline(shape["points"], smooth=fit["smooth"], outliers=fit["outliers"] or None, period=fit.get("period"))
     elif kind == "piecewise":
         body = Piecewise([_read_body(part) for part in shape["parts"]], shape.get("tolerance"))
     else:
@@ -182,7 +182,7 @@ def _body_fields(body: Body, place: str) -> Fields:
         numbers = body._numbers()
         return {"shape": {body._kind: numbers} if numbers else body._kind}
     if type(body) is Spline:
-        fit = {"smooth": body.smooth, "outliers": body.outliers or 0.0}
+        fit = {"smooth": body.smooth, "outliers": body.outliers or 0.0} | ({} if body.period is None else {"period": body.period})
         return {"shape": {"spline": {"points": body.points, "fit": fit}}}
     if type(body) is Piecewise:
         parts = [_body_fields(part, f"{place}.parts[{i}]") for i, part in enumerate(body.parts)]

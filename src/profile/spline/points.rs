@@ -81,6 +81,19 @@ pub enum SplineError<T: Real> {
         /// Distance of the point from this cubic, in standard deviations.
         deviations: T,
     },
+    /// A period is not a positive finite number, or its end is not behind the last point.
+    #[error(
+        "the period {} from the first point, x = {}, must end behind the last one, x = {last}: leave out the points \
+         from its end on, the first one repeated, too", six(*period), six(*first), last = apart(*last, &[*first])
+    )]
+    Period {
+        /// Period as given; 0 of a body that is turned.
+        period: T,
+        /// x of the first point.
+        first: T,
+        /// x of the last point.
+        last: T,
+    },
     /// The limit for outliers is not positive.
     #[error("Fit::outliers is {}: give a number of standard deviations, or None", six(*deviations))]
     Limit {
