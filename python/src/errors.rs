@@ -249,9 +249,9 @@ table! {
     InSegment { segment, source };
     Tolerance { tolerance };
     NoPieces {};
-    Gap { breakpoint, left, right };
-    Overlap { breakpoint, left, right };
-    Jump { breakpoint, x, left, right };
+    Gap { breakpoint, left, right, share };
+    Overlap { breakpoint, left, right, share };
+    Jump { breakpoint, x, left, right, share };
 }
 table! {
     SplineError, "Spline", SPLINE, transparent: [];

@@ -34,10 +34,11 @@ pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, pea
     if carried.partial_cmp(&carried).is_none() {
         return format!("{leave} under the load {asked}: extend the domain, lower the load");
     }
+    let lower = if carried < T::zero() { "adhesion, which pulls there" } else { "the load" };
     let (carried, half_width, peak) = (apart(carried, &[load]), six(half_width), six(peak));
     format!(
         "{leave}: up to there they carry {carried} of the load {asked}, with half-width {half_width} and peak pressure \
-         {peak}; extend the domain, lower the load"
+         {peak}; extend the domain, lower {lower}"
     )
 }
 
@@ -102,11 +103,10 @@ pub(super) fn hint(kappa_is_default: bool) -> &'static str {
 /// Returns the remedy for slopes, on the left and on the right, that do not belong to a closing
 /// gap.
 pub(super) fn how_to_touch<T: Real>([left, right]: [T; 2]) -> &'static str {
-    let zero = T::zero();
     if left.is_zero() && right.is_zero() {
         "these bodies are parallel, so that they touch all along: two flats need Edge::Fixed or FreeUntil at their \
-         corners; of two like curves one is to be flipped (Placement::flipped), or given another radius"
-    } else if left >= zero && right <= zero {
+         corners; flip one of two like curves (Placement::flipped), or change its radius; of too small numbers the unit"
+    } else if left >= T::zero() && right <= T::zero() {
         "these bodies bulge away from each other: flip one of them (Placement::flipped), swap them, or give \
          a convex body a smaller radius than the hollow that it lies in"
     } else {

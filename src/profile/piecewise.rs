@@ -178,11 +178,11 @@ impl<'p, T: Real> Scan<'p, T> {
         let [left, right] = [before.piece.ends[1], after.piece.ends[0]];
         let mismatch = right.x - left.x;
         if mismatch.abs() > tolerance * extent {
-            let (left, right) = (left.x, right.x);
+            let (left, right, share) = (left.x, right.x, mismatch.abs() / extent);
             return Err(if mismatch > T::zero() {
-                PiecewiseError::Gap { breakpoint, left, right }
+                PiecewiseError::Gap { breakpoint, left, right, share }
             } else {
-                PiecewiseError::Overlap { breakpoint, left, right }
+                PiecewiseError::Overlap { breakpoint, left, right, share }
             });
         }
         before.check_heights(breakpoint)?;
@@ -191,8 +191,8 @@ impl<'p, T: Real> Scan<'p, T> {
         let steep = before.steepness[1] * before.extents[0] + after.steepness[0] * after.extents[0];
         let rounding = tolerance.min(T::of(JOINT_ROUNDING) * T::epsilon());
         if jump > tolerance * height + rounding * steep {
-            let (x, left, right) = (left.x, left.y, right.y);
-            return Err(PiecewiseError::Jump { breakpoint, x, left, right });
+            let (x, left, right, share) = (left.x, left.y, right.y, jump / height);
+            return Err(PiecewiseError::Jump { breakpoint, x, left, right, share });
         }
         Ok(())
     }
@@ -282,8 +282,8 @@ pub enum PiecewiseError<T: Real> {
     /// Two neighbours do not meet: `x` between them belongs to neither.
     #[error(
         "gap of {} between pieces {breakpoint} and {} from the left: at x = {left} the one ends, at {right} \
-         the other starts; close it, or join them by Piecewise::with_tolerance",
-        six(*right - *left), breakpoint + 1, left = apart(*left, &[*right]), right = apart(*right, &[*left])
+         the other starts; close it, or join them by Piecewise::with_tolerance, above {}",
+        six(*right - *left), breakpoint + 1, six(*share), left = apart(*left, &[*right]), right = apart(*right, &[*left])
     )]
     Gap {
         /// Number of the breakpoint, 1 between the first two pieces.
@@ -292,13 +292,15 @@ pub enum PiecewiseError<T: Real> {
         left: T,
         /// Left end of the right piece.
         right: T,
+        /// Their difference, as a share of what the tolerance is one of.
+        share: T,
     },
     /// Two neighbours overlap: `x` between them belongs to both. Pieces in the wrong order overlap
     /// too.
     #[error(
         "overlap of {} between pieces {breakpoint} and {} from the left: at x = {left} the one ends, at \
-         {right} the other starts; give them from left to right, or join them by Piecewise::with_tolerance",
-        six(*left - *right), breakpoint + 1, left = apart(*left, &[*right]), right = apart(*right, &[*left])
+         {right} the other starts; give them from left to right, or join them by Piecewise::with_tolerance, above {}",
+        six(*left - *right), breakpoint + 1, six(*share), left = apart(*left, &[*right]), right = apart(*right, &[*left])
     )]
     Overlap {
         /// Number of the breakpoint, 1 between the first two pieces.
@@ -307,12 +309,14 @@ pub enum PiecewiseError<T: Real> {
         left: T,
         /// Left end of the right piece.
         right: T,
+        /// Their difference, as a share of what the tolerance is one of.
+        share: T,
     },
     /// Two neighbours meet at different heights.
     #[error(
         "jump of {} between pieces {breakpoint} and {} from the left, at x = {x}: Y = {left} on its left, \
-         {right} on its right; move one of them, or join them by Piecewise::with_tolerance",
-        six(*right - *left), breakpoint + 1, x = six(*x), left = apart(*left, &[*right]),
+         {right} on its right; move one of them, or join them by Piecewise::with_tolerance, above {}",
+        six(*right - *left), breakpoint + 1, six(*share), x = six(*x), left = apart(*left, &[*right]),
         right = apart(*right, &[*left])
     )]
     Jump {
@@ -324,6 +328,8 @@ pub enum PiecewiseError<T: Real> {
         left: T,
         /// `Y` at the start of the right piece.
         right: T,
+        /// Their difference, as a share of what the tolerance is one of.
+        share: T,
     },
 }
 

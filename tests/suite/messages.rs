@@ -135,7 +135,7 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
         ),
         (
             ContactError::Solve(SolveError::NoFirstContact { x: [1.5, 2.5], slope: [0.0; 2] }),
-            &["parallel", "FreeUntil"],
+            &["parallel", "FreeUntil", "of too small numbers the unit"],
         ),
         (
             ContactError::Solve(SolveError::DomainTooShort {
@@ -555,6 +555,8 @@ fn messages_have_the_digits_that_tell_something() {
     assert!(some.contains("FreeUntil(0.987654321012)"), "{some}");
     assert!(none.contains("touch first at their end x = 0.987654,"), "{none}");
     assert!(none.contains("FreeUntil(0.987654321012)"), "{none}");
+    let pulled = message([-1.5, 1.0, -0.3]);
+    assert!(pulled.contains("lower adhesion, which pulls there"), "{pulled}");
     let unknown = message([f64::NAN; 3]);
     assert!(unknown.contains("x = 0.987654 under the load 0.5: extend"), "{unknown}");
     assert!(unknown.contains("FreeUntil(") && !unknown.contains("NaN"), "{unknown}");
@@ -586,20 +588,24 @@ fn the_messages_of_bodies_and_searches_name_their_values() {
             "segment 12 of the outline: X' is NaN",
         ),
         (PiecewiseError::Tolerance { tolerance: -1.5 }, "-1.5"),
+    ] {
+        assert_says(&error, &[words]);
+    }
+    for (error, words) in [
         (
-            PiecewiseError::Gap { breakpoint: 12, left: 1.5, right: 3.75 },
+            PiecewiseError::Gap { breakpoint: 12, left: 1.5, right: 3.75, share: 0.75 },
             "gap of 2.25 between pieces 12 and 13 from the left",
         ),
         (
-            PiecewiseError::Overlap { breakpoint: 12, left: 3.75, right: 1.5 },
+            PiecewiseError::Overlap { breakpoint: 12, left: 3.75, right: 1.5, share: 0.75 },
             "overlap of 2.25 between pieces 12 and 13 from the left",
         ),
         (
-            PiecewiseError::Jump { breakpoint: 12, x: 4.5, left: 1.5, right: 3.75 },
+            PiecewiseError::Jump { breakpoint: 12, x: 4.5, left: 1.5, right: 3.75, share: 0.75 },
             "jump of 2.25 between pieces 12 and 13 from the left",
         ),
     ] {
-        assert_says(&error, &[words]);
+        assert_says(&error, &[words, "with_tolerance, above 0.75"]);
     }
     for (error, words) in [
         (SplineError::NotFinite { row: 12, x: 1.5, y: f64::NAN }, "remove the row"),

@@ -104,24 +104,35 @@ fn breakpoints_are_checked() {
     let first = || line(-1.0, 0.0, 0.0, 0.0);
     assert_eq!(
         join(vec![first(), line(0.0, 1.0, 1e-6, 0.0)]),
-        PiecewiseError::Gap { breakpoint: 1, left: 0.0, right: 1e-6 }
+        PiecewiseError::Gap { breakpoint: 1, left: 0.0, right: 1e-6, share: 1e-6 / (1.0 + 1e-6) }
     );
     assert_eq!(
         join(vec![first(), line(0.0, 1.0, 0.0, 0.0), line(1.0, 2.0, -0.25, 0.0)]),
-        PiecewiseError::Overlap { breakpoint: 2, left: 1.0, right: 0.75 }
+        PiecewiseError::Overlap { breakpoint: 2, left: 1.0, right: 0.75, share: 0.25 / 1.75 }
     );
     assert_eq!(
         join(vec![first(), line(0.0, 1.0, 0.0, 1e-13)]),
-        PiecewiseError::Jump { breakpoint: 1, x: 0.0, left: 0.0, right: 1e-13 }
+        PiecewiseError::Jump {
+            breakpoint: 1,
+            x: 0.0,
+            left: 0.0,
+            right: 1e-13,
+            share: 1e-13 / (1.0 + 1e-13)
+        }
     );
     assert_eq!(
         join(vec![first(), line(0.0, 1.0, 1e-13, 0.0)]),
-        PiecewiseError::Gap { breakpoint: 1, left: 0.0, right: 1e-13 }
+        PiecewiseError::Gap {
+            breakpoint: 1,
+            left: 0.0,
+            right: 1e-13,
+            share: 1e-13 / (1.0 + 1e-13)
+        }
     );
     // Pieces in the wrong order overlap.
     assert!(matches!(
         join(vec![line(0.0, 1.0, 0.0, 0.0), first()]),
-        PiecewiseError::Overlap { breakpoint: 1, left: 1.0, right: -1.0 }
+        PiecewiseError::Overlap { breakpoint: 1, left: 1.0, right: -1.0, .. }
     ));
 
     // Rounding is not a gap, and measured pieces may be joined with a tolerance.

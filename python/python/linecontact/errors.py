@@ -41,7 +41,7 @@ _IN_PYTHON = {
     "Convexity::Unknown": 'the convexity "unknown"',
     "Placement::flipped": "Body.flipped",
     "use Piecewise::placed": "place its parts one by one",
-    "by Piecewise::with_tolerance": "by Piecewise(parts, tolerance)",
+    "by Piecewise::with_tolerance": "by Piecewise(parts, tolerance), with a tolerance",
     "Fit::smooth": "smooth=True",
     "set Fit::outliers to None": "give outliers=None",
     "of points set Fit::period": "of points give Spline(points, period=...)",
@@ -1669,11 +1669,14 @@ class PiecewiseGapError(InputError):
         Right end of the left piece.
     right : float
         Left end of the right piece.
+    share : float
+        Their difference, as a share of what the tolerance is one of.
     """
 
     breakpoint: int
     left: float
     right: float
+    share: float
 
 
 class PiecewiseOverlapError(InputError):
@@ -1689,11 +1692,14 @@ class PiecewiseOverlapError(InputError):
         Right end of the left piece.
     right : float
         Left end of the right piece.
+    share : float
+        Their difference, as a share of what the tolerance is one of.
     """
 
     breakpoint: int
     left: float
     right: float
+    share: float
 
 
 class PiecewiseJumpError(InputError):
@@ -1709,12 +1715,15 @@ class PiecewiseJumpError(InputError):
         `Y` at the end of the left piece.
     right : float
         `Y` at the start of the right piece.
+    share : float
+        Their difference, as a share of what the tolerance is one of.
     """
 
     breakpoint: int
     x: float
     left: float
     right: float
+    share: float
 
 
 class SplineTooFewError(InputError):
