@@ -66,7 +66,11 @@ impl Recipe {
             // Measured points are not parameters.
             Self::Spline(points, fit) => Shape::Spline {
                 points: points.iter().map(|point| point.map(of)).collect(),
-                fit: Fit { smooth: fit.smooth, outliers: fit.outliers.map(of), period: fit.period.map(of) },
+                fit: Fit {
+                    smooth: fit.smooth,
+                    outliers: fit.outliers.map(of),
+                    period: fit.period.map(of),
+                },
             },
             Self::Curve(curve) => {
                 let (curve, to) = (lift.curve(curve)?, placement(steps, lift)?);
