@@ -41,7 +41,7 @@ _IN_PYTHON = {
     "Convexity::Unknown": 'the convexity "unknown"',
     "Placement::flipped": "Body.flipped",
     "use Piecewise::placed": "place its parts one by one",
-    "by Piecewise::with_tolerance": "by Piecewise(parts, tolerance), with a tolerance",
+    "by Piecewise::with_tolerance, above": "by Piecewise(parts, tolerance) with a tolerance above",
     "Fit::smooth": "smooth=True",
     "set Fit::outliers to None": "give outliers=None",
     "of points set Fit::period": "of points give Spline(points, period=...)",
