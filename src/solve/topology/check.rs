@@ -63,7 +63,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         self.resolve(found)?;
         let gap = &self.contact.gap.tilted(found.tilt);
-        let is_proved = self.is_convex() || self.touches_once(gap, found)?;
+        // Between several contacts the gap is not convex, whatever the survey has seen.
+        let is_one = self.work.integrator.several().is_none();
+        let is_proved = is_one && (self.is_convex() || self.touches_once(gap, found)?);
         if is_proved && !self.corrects_survey()? {
             return Ok(lifts_off);
         }
@@ -158,8 +160,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Tells whether the gap is convex around one contact as far as its load reaches.
     fn touches_once(&mut self, gap: &Gap<'_, T>, found: &ContactState<T>) -> Fallible<T, bool> {
-        let is_one = self.work.integrator.several().is_none();
-        if !is_one || found.adhesive != Ends::both(false) || self.covers(found) {
+        if found.adhesive != Ends::both(false) || self.covers(found) {
             return Ok(false);
         }
         let load = found.load / self.contact.kappa;
