@@ -10,7 +10,7 @@
 //! | free, next to a corner, or beyond one at an end | held there |
 //! | free, beyond a corner by hardly more than x is known | held there |
 //! | held, and nothing found, contacts that vanish or meet included | let go, where it was |
-//! | held, K < 0 | let go inward, the lowest first |
+//! | held, K < 0 | let go inward, to where it was if that is inward, the lowest first |
 //! | held, K > 0, inside the bodies | put beyond the corner by d, the furthest first |
 //! | held, K > 0, d/L less than the rounding of x over d | held: d is the error of the limit |
 //!
@@ -309,8 +309,11 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let held = held.into_iter().filter(|held| passed[held.side] < MAX_PASSES);
         let lowest = held.reduce(lower).filter(|held| held.strength < T::zero());
         if let Some(Held { contact, side, z, .. }) = lowest {
-            let half_width = self.work.workspace.newton.on[contact].half_width();
-            self.let_go((contact, side, z), -T::of(STEP_INWARD) * half_width);
+            let Workspace { newton, before, .. } = &*self.work.workspace;
+            let step = -T::of(STEP_INWARD) * newton.on[contact].half_width();
+            let as_before = before.get(contact).map(|on| outward::<T>(side) * (on[side] - z));
+            let inward = as_before.filter(|away| *away < T::zero());
+            self.let_go((contact, side, z), inward.unwrap_or(step));
             return Ok(true);
         }
         let ends = self.contact.ends();
