@@ -83,7 +83,7 @@ impl<T: Real> Solution<'_, T> {
         let (hull, found, digits) = (self.hull(), &self.found, f.precision().unwrap_or(DIGITS));
         let at = |x: T| within(place(x, hull.right - hull.left), &hull, digits);
         if let Some(Peak { x, pressure, error }) = peak
-            && error > T::of(UNCERTAIN) * pressure
+            && error > T::of(UNCERTAIN) * pressure.abs()
         {
             let why = match is_far(x, hull.half_width()) {
                 true => "x has too few digits: move the origin to the contact".into(),

@@ -180,17 +180,21 @@ fn fine_waves_take_a_time_like_their_number() {
 }
 
 /// A groove or a raised land whose walls are so narrow that no slope was seen on them: heights show
-/// it. In 50 of 60 places a groove of a tenth to a third of the contact was missed.
+/// it, those at the outermost nodes of neighbouring panels among them. In 50 of 60 places a groove
+/// of a tenth to a third of the contact was missed, and 16 of 240 lands. Walls that are steeper
+/// than any body may be end in errors.
 #[test]
-fn grooves_between_walls_that_no_node_meets_are_seen_by_their_heights() {
+fn lands_and_grooves_between_walls_that_no_node_meets_are_seen_by_their_heights() {
+    let scenes = std::env::var("SCENES").map_or(120, |count| count.parse().unwrap());
     let mut dice = Dice::new(7);
-    let (mut solved, mut refused) = (0, 0);
-    for i in 0..60 {
+    let (mut missed, mut refused) = (Vec::new(), 0);
+    for i in 0..scenes {
+        let wall = [1e-4, 1e-5, 1e-3][i / 12 % 3];
         let width = 0.21 * [0.1, 0.2, 0.3][i % 3];
-        let depth = [1e-3, 1e-5][i % 2];
+        let depth = [1e-3, 1e-5, -1e-5, -1e-6][i / 3 % 4];
         let from = -0.105 + (0.21 - width) * dice.uniform();
-        let (walls, wall) = ([from, from + width], 1e-4);
-        let body = Curve::new([-1.0, 1.0], move |x: f64| {
+        let walls = [from, from + width];
+        let at = move |x: f64| {
             let [one, other] = walls.map(|at| ((x - at) / wall).tanh());
             CurvePoint {
                 x,
@@ -198,16 +202,32 @@ fn grooves_between_walls_that_no_node_meets_are_seen_by_their_heights() {
                 dx: 1.0,
                 dy: x / 10.0 + 0.5 * depth / wall * (other * other - one * one),
             }
-        });
-        let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115_384.6);
-        let Ok(solution) = contact.solve(Control::Load(100.0)) else {
-            refused += 1;
-            continue;
         };
-        solved += 1;
-        let peak = solution.peak().unwrap().pressure;
-        assert!(peak > 610.0, "{depth} {walls:?}: {solution}");
+        let peak = |cuts: &[f64]| {
+            let ends = [&[-1.0], cuts, &[1.0]].concat();
+            let piece = |k: &[f64]| Curve::new([k[0], k[1]], at);
+            let body = Piecewise::new(ends.windows(2).map(piece).collect()).unwrap();
+            let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115_384.6);
+            let peak = contact.solve(Control::Load(100.0))?.peak()?;
+            Ok([peak.pressure, peak.error])
+        };
+        // Pieces that end on the walls resolve them with any nodes.
+        let cuts = [-3.0, -1.0, 0.0, 1.0, 3.0].map(|share| share * wall);
+        let cuts = walls.map(|at| cuts.map(|beside| at + beside)).concat();
+        let [found, known]: [Result<[f64; 2], ContactError<f64>>; 2] = [peak(&[]), peak(&cuts)];
+        match (found, known) {
+            (Ok([found, open]), Ok([known, _])) if (found - known).abs() > 0.01 * known + open => {
+                missed.push(format!("{depth}, {wall} {walls:?}: {found} for {known}"));
+            }
+            (Ok(_), Ok(_)) => {}
+            (found, known) => {
+                let errors = [found.err(), known.err()].map(|error| error.map(|e| e.to_string()));
+                println!("{depth}, {wall} {walls:?}: {errors:?}");
+                refused += 1;
+            }
+        }
     }
-    println!("{solved} solved, {refused} refused");
-    assert!(refused <= 3, "{refused}");
+    println!("{} missed, {refused} refused", missed.len());
+    assert!(missed.is_empty(), "{}:\n{}", missed.len(), missed.join("\n"));
+    assert!(refused <= scenes / 10, "{refused}");
 }

@@ -34,6 +34,19 @@ pub(crate) struct Panel<T> {
     /// Distance between places in a contact at which the series was checked; infinite if only its
     /// nodes were sampled.
     pub apart: T,
+    /// Left- and rightmost node with their heights, unless the bodies know their slopes.
+    pub outermost: Option<[NodeHeight<T>; 2]>,
+}
+
+/// Height of the gap near a node, with the slopes of both bodies there. A body that knows its slope
+/// has no height here.
+#[derive(Clone, Copy)]
+pub(crate) struct NodeHeight<T> {
+    pub x: T,
+    pub height: T,
+    /// Uncertainty of the height, apart from noise.
+    pub doubt: T,
+    pub slopes: [T; 2],
 }
 
 impl<T: Real> Panel<T> {
@@ -49,6 +62,7 @@ impl<T: Real> Panel<T> {
             noise: zero,
             fall: zero,
             apart,
+            outermost: None,
         }
     }
 

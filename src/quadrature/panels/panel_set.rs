@@ -15,7 +15,7 @@ use crate::profile::Noise;
 use crate::{Body, ContactError, Ends, Interval, Real, Side};
 use candidate::{Candidate, FALL_OF_A_ROOT, FEW_ULPS, LEVELS_OF_A_WAVE, MAX_AT_JUMP, is_long};
 use num_traits::ToPrimitive;
-use sampling::SampledBody;
+use sampling::{LEVELS_OF_A_STEP, SampledBody};
 
 /// Fewest nodes of a panel after the first estimate. On a span a little wider than a contact, the
 /// outermost of eight nodes lie beyond the limits; of four they would not.
@@ -375,7 +375,9 @@ impl<T: Real> PanelSet<T> {
                 // as it is not faint.
                 let faint = trial.panel.error <= T::of(1e-6) * self.size || level >= NOISY_LEVEL;
                 let is_stuck = |half: &Candidate<T>| {
-                    half.split && half.panel.error >= T::of(NO_GAIN) * trial.panel.error
+                    half.split
+                        && !half.has_tip
+                        && half.panel.error >= T::of(NO_GAIN) * trial.panel.error
                 };
                 if faint && is_stuck(&one) && is_stuck(&other) && self.measure_noise(gap, false) {
                     self.try_out(gap, &mut trial)?;
@@ -388,7 +390,10 @@ impl<T: Real> PanelSet<T> {
                     let by_value = ratio >= T::of(0.8) && ratio <= T::of(64.0);
                     let by_derivative = half.derivatives >= T::of(0.8) * trial.derivatives;
                     let derived = half.derivatives > T::zero();
-                    half.split && !half.hides && if derived { by_derivative } else { by_value }
+                    half.split
+                        && !half.hides
+                        && !half.has_tip
+                        && if derived { by_derivative } else { by_value }
                 };
                 if faint && as_much(&one) && as_much(&other) {
                     let derived = one.derivatives > T::zero() || other.derivatives > T::zero();
@@ -406,20 +411,30 @@ impl<T: Real> PanelSet<T> {
             }
             // A feature between the last node and the end of a panel shows at its neighbour.
             let before = (self.panels.len() > begin).then(|| self.panels[self.panels.len() - 1]);
-            let apart = |before: &Panel<T>| !self.meets(before, &trial.panel, trial.allowed);
+            let step = match &before {
+                Some(before) if !self.coarse => {
+                    self.beside_noise(gap, |row| row.check_between(before, &trial.panel))
+                }
+                _ => Ok(()),
+            };
+            let apart = |before: &Panel<T>| {
+                step.is_err() || !self.meets(before, &trial.panel, trial.allowed)
+            };
             if let Some(before) = before.filter(apart) {
+                // The longer one has been halved less often.
+                let longer: f64 = (before.half() / trial.panel.half()).to_subset_unchecked();
+                let level = trial.level.saturating_sub(longer.log2().to_usize().unwrap_or(0));
                 let finer = trial.level < MAX_AT_JUMP
                     && trial.may_be_halved()
-                    && (is_long(trial.panel.x, self.noise) || is_long(before.x, self.noise));
+                    && (is_long(trial.panel.x, self.noise) || is_long(before.x, self.noise))
+                    && (level < LEVELS_OF_A_STEP || step.is_ok());
                 if finer && splits < MAX_SPLITS && !self.coarse {
                     self.panels.pop();
-                    // The longer one has been halved less often.
-                    let longer: f64 = (before.half() / trial.panel.half()).to_subset_unchecked();
-                    let level = trial.level.saturating_sub(longer.log2().to_usize().unwrap_or(0));
                     self.waiting.push(Candidate { split: true, ..trial });
                     trial = Candidate { panel: before, level, split: true, ..trial };
                     continue;
                 }
+                step?;
             }
             if trial.is_given_up(self.tolerance * self.size) {
                 trial.own_up();

@@ -47,6 +47,8 @@ pub(super) struct Candidate<T> {
     pub wave: bool,
     /// True if the heights contradict the slopes.
     pub hides: bool,
+    /// True if the series misses the slope at an end by more than noise.
+    pub has_tip: bool,
     /// Relative error of a derivative that calls for a split, or zero.
     pub derivatives: T,
     /// Rise of the slope on the panel, or what its series misses at the end of a piece; the same of
@@ -58,10 +60,23 @@ pub(super) struct Candidate<T> {
 impl<T: Real> Candidate<T> {
     /// Returns an untried candidate.
     pub fn new(x: [T; 2]) -> Self {
-        let [split, falls, sparse, wave, hides] = [false; 5];
+        let [split, falls, sparse, wave, hides, has_tip] = [false; 6];
         let (panel, [allowed, derivatives, rise]) = (Panel::new(x), [T::zero(); 3]);
         let (level, rose) = (0, [T::zero(); 2]);
-        Self { panel, split, allowed, level, falls, sparse, wave, hides, derivatives, rise, rose }
+        Self {
+            panel,
+            split,
+            allowed,
+            level,
+            falls,
+            sparse,
+            wave,
+            hides,
+            has_tip,
+            derivatives,
+            rise,
+            rose,
+        }
     }
 
     /// Tells whether a panel with a larger error than this would be halved, but is too short.

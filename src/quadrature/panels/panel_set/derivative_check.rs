@@ -3,7 +3,7 @@
 use super::PanelSet;
 use crate::gap::{Cost, CurveSample, Gap, Sampler};
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, Table};
-use crate::quadrature::panels::panel::{Panel, rise, within};
+use crate::quadrature::panels::panel::{NodeHeight, Panel, rise, within};
 use crate::{Body, ContactError, InputError, Interval, ProfileError, Real};
 
 impl<T: Real> PanelSet<T> {
@@ -55,7 +55,7 @@ impl<T: Real> PanelSet<T> {
     /// the gap, and their slopes need not be resolved.)
     pub(super) fn check_heights(
         &self,
-        panel: &Panel<T>,
+        panel: &mut Panel<T>,
         steepest: T,
     ) -> Result<(), ContactError<T>> {
         if self.traces.iter().all(|cache| cache.direct) {
@@ -64,56 +64,109 @@ impl<T: Real> PanelSet<T> {
         let (n, half, table) = (panel.n, panel.half(), Table::of(panel.n));
         let place = |i: usize| panel.x[0] + half * T::of(1.0 + table.z[i]);
         let places: Coeffs<T> = std::array::from_fn(|i| place(i.min(n - 1)));
-        // Of bodies with heights to be compared, and of others.
-        let mut rises = [[T::zero(); MAX_SIZE]; 2];
+        let mut near = self.heights_near(&places[..n]);
+        panel.outermost = Some([near[0], near[n - 1]]);
+        let mut by_slopes = [T::zero(); MAX_SIZE];
         for (i, cache) in self.traces.iter().enumerate() {
-            let (slopes, sum) = (&self.slopes[i][..n], &mut rises[usize::from(cache.direct)]);
+            let slopes = &self.slopes[i][..n];
             if slopes.iter().all(T::is_zero) {
                 continue;
             }
             let reach = sign::<T>(i) * half;
-            for (sum, rise) in sum[..n].iter_mut().zip(table.rises(slopes)) {
-                *sum += reach * rise;
+            for (j, rise) in table.rises(slopes)[..n].iter().enumerate() {
+                by_slopes[j] += reach * *rise;
+                if cache.direct {
+                    near[j].height += reach * *rise;
+                }
             }
         }
         let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.error;
-        match self.contradiction(&places[..n], rises, share) {
+        match self.contradiction(&near[..n], by_slopes, share) {
             Some((_, error)) => Err(error),
             None => Ok(()),
         }
     }
 
-    /// Returns the first place up to which the gap rises otherwise by heights than by slopes, from
-    /// the place before, with the error that tells so. The rises up to each place are those of
-    /// bodies whose heights were taken near the places, and of others.
+    /// Returns the heights at places, of the bodies whose points were taken near them. The next
+    /// point bounds the change of slope up to a place.
+    pub(super) fn heights_near(&self, places: &[T]) -> [NodeHeight<T>; MAX_SIZE] {
+        let zero = T::zero();
+        let node = |i| NodeHeight { x: places[i], height: zero, doubt: zero, slopes: [zero; 2] };
+        let mut nodes: [_; MAX_SIZE] = std::array::from_fn(|i| node(i.min(places.len() - 1)));
+        for (body, cache) in self.traces.iter().enumerate() {
+            for (i, node) in nodes[..places.len()].iter_mut().enumerate() {
+                if cache.direct {
+                    node.slopes[body] = self.slopes[body][i];
+                    continue;
+                }
+                let [near, next] =
+                    [i, if i == 0 { 1 } else { i - 1 }].map(|i| cache.curve_samples()[i]);
+                let missed = node.x - near.x;
+                let highest = cache.height().max(near.y.abs() + (near.x * near.slope).abs());
+                node.height += sign::<T>(body) * (near.y + missed * near.slope);
+                node.doubt += (missed * (next.slope - near.slope)).abs() + rounding(highest);
+                node.slopes[body] = near.slope;
+            }
+        }
+        nodes
+    }
+
+    /// Checks that the gap rises from the last node of a panel to the first of the next one by the
+    /// same amount by heights as by slopes: both walls of a groove or a land may lie between them.
+    pub(super) fn check_between(
+        &self,
+        left: &Panel<T>,
+        right: &Panel<T>,
+    ) -> Result<(), ContactError<T>> {
+        let (Some([_, from]), Some([mut to, _])) = (left.outermost, right.outermost) else {
+            return Ok(());
+        };
+        // Where the panels do not meet, one of them holds up to an unknown place between the nodes.
+        let mismatch = (left.at_ends()[1] - right.at_ends()[0]).abs();
+        let mut share = T::of(16.0) * (left.error + right.error) + mismatch;
+        for (body, cache) in self.traces.iter().enumerate() {
+            let [one, other] = [from.slopes[body], to.slopes[body]];
+            share += T::epsilon().cbrt() * one.abs().max(other.abs());
+            if cache.direct {
+                to.height += sign::<T>(body) * T::of(0.5) * (one + other) * (to.x - from.x);
+                share += (other - one).abs();
+            }
+        }
+        let by_slopes = left.rise(from.x, left.x[1]) + right.rise(right.x[0], to.x);
+        self.compare([&from, &to], by_slopes, share)
+    }
+
+    /// Refuses heights at two places between which the slopes rise by another amount. The share of
+    /// the distance between them is uncertain.
+    fn compare(
+        &self,
+        nodes: [&NodeHeight<T>; 2],
+        by_slopes: T,
+        share: T,
+    ) -> Result<(), ContactError<T>> {
+        let [from, to] = nodes;
+        let mut open = from.doubt + to.doubt + share * (to.x - from.x);
+        for (body, _) in self.traces.iter().enumerate().filter(|(_, cache)| !cache.direct) {
+            for node in nodes {
+                open += self.noise_of_height(body, node.slopes[body]);
+            }
+        }
+        let (between, by_heights) = ([from.x, to.x], to.height - from.height);
+        Rises { between, by_heights, by_slopes, highest: T::zero(), open }.compare()
+    }
+
+    /// Returns the first of some places up to which the gap rises otherwise by heights than by
+    /// slopes, from the place before, with the error that tells so.
     pub(super) fn contradiction(
         &self,
-        places: &[T],
-        [sought, known]: [Coeffs<T>; 2],
+        near: &[NodeHeight<T>],
+        by_slopes: Coeffs<T>,
         share: T,
     ) -> Option<(usize, ContactError<T>)> {
-        let (mut heights, mut doubt, mut highest) = (known, [T::zero(); MAX_SIZE], T::zero());
-        for (i, cache) in self.traces.iter().enumerate().filter(|(_, cache)| !cache.direct) {
-            let points = &cache.curve_samples()[..places.len()];
-            for (j, (near, place)) in points.iter().zip(places).enumerate() {
-                // The point is near the place, not at it; the next point bounds the change of slope
-                // between them.
-                let next = points[if j == 0 { 1 } else { j - 1 }];
-                let missed = *place - near.x;
-                heights[j] += sign::<T>(i) * (near.y + missed * near.slope);
-                doubt[j] += (missed * (next.slope - near.slope)).abs();
-                doubt[j] += self.noise_of_height(i, near.slope);
-                highest = highest.max(near.y.abs() + (near.x * near.slope).abs());
-            }
-            highest = highest.max(cache.height());
-        }
-        (1..places.len()).find_map(|i| {
-            let between = [places[i - 1], places[i]];
-            let open = doubt[i - 1] + doubt[i] + share * (between[1] - between[0]);
-            let by_heights = heights[i] - heights[i - 1];
-            let by_slopes = (sought[i] - sought[i - 1]) + (known[i] - known[i - 1]);
-            let rises = Rises { between, by_heights, by_slopes, highest, open };
-            rises.compare().err().map(|error| (i, error))
+        (1..near.len()).find_map(|i| {
+            let nodes = [&near[i - 1], &near[i]];
+            let found = self.compare(nodes, by_slopes[i] - by_slopes[i - 1], share);
+            found.err().map(|error| (i, error))
         })
     }
 
@@ -150,6 +203,11 @@ fn sign<T: Real>(body: usize) -> T {
     if body == 0 { -T::one() } else { T::one() }
 }
 
+/// Returns the rounding of a height.
+fn rounding<T: Real>(highest: T) -> T {
+    T::of(64.0) * T::epsilon() * highest
+}
+
 /// Rise of the gap from one place to another, by heights and by slopes: lengths.
 #[derive(Clone, Copy)]
 pub(crate) struct Rises<T> {
@@ -166,7 +224,7 @@ impl<T: Real> Rises<T> {
     /// Refuses heights that contradict the slopes.
     pub fn compare(self) -> Result<(), ContactError<T>> {
         let Self { between, by_heights, by_slopes, highest, open } = self;
-        let apart = (by_heights - by_slopes).abs() - T::of(128.0) * T::epsilon() * highest;
+        let apart = (by_heights - by_slopes).abs() - T::of(2.0) * rounding(highest);
         let share = || T::epsilon().cbrt() * (by_heights.abs() + by_slopes.abs());
         // Most need no root.
         if apart <= open || apart <= open + share() {

@@ -145,10 +145,11 @@ impl<T: Real> PanelSet<T> {
         }
         let at = places.map(|x| panel.local(x));
         let rises = values(&primitive(panel.coefficients())[..=panel.length], &at);
-        let mut sought = [T::zero(); MAX_SIZE];
-        sought.iter_mut().zip(rises).for_each(|(sum, rise)| *sum = reach * rise);
+        let mut by_slopes = [T::zero(); MAX_SIZE];
+        by_slopes.iter_mut().zip(rises).for_each(|(sum, rise)| *sum = reach * rise);
         let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.error;
-        let found = self.contradiction(&places, [sought, [T::zero(); MAX_SIZE]], share);
+        let near = self.heights_near(&places);
+        let found = self.contradiction(&near[..N], by_slopes, share);
         Ok(found.map(|(i, _)| places[i]))
     }
 }

@@ -18,7 +18,7 @@ const MAX_OFFSETS: [f64; 2] = [0.1, 0.45];
 const LEVELS_OF_A_TIP: usize = 40;
 
 /// Most halvings of a span to resolve a feature that shows only in the heights. The rest is a step.
-const LEVELS_OF_A_STEP: usize = 12;
+pub(super) const LEVELS_OF_A_STEP: usize = 12;
 
 /// Most halvings of a span for derivatives alone, which may have a kink where the slope has none.
 const DERIVATIVE_LEVELS: usize = 12;
@@ -94,11 +94,13 @@ impl<T: Real> PanelSet<T> {
         let verdict = judge(panel.n, &panel.series, allowed, rounded);
         // More than the noise at a breakpoint: a tip is much narrower than the panel.
         let missed = missed.max(at_limit) - T::epsilon().sqrt() * self.size;
+        trial.has_tip = false;
         let (error, mut next, mut split) = match verdict {
             // The first sign of a tip looks like noise.
             Resolution::Good(error) | Resolution::Noise(error)
                 if counts && missed > T::of(64.0) * allowed.max(error) =>
             {
+                trial.has_tip = true;
                 (error, None, true)
             }
             Resolution::Good(error) if off > allowed => (error.max(off), more_than(panel.n), true),
@@ -129,21 +131,32 @@ impl<T: Real> PanelSet<T> {
     fn hides(
         &mut self,
         gap: &Gap<'_, T>,
-        trial: &Candidate<T>,
+        trial: &mut Candidate<T>,
         steepest: T,
     ) -> Result<bool, ContactError<T>> {
-        let mut heights = self.check_heights(&trial.panel, steepest);
-        for by_rounding in [false, true] {
-            if heights.is_err() && self.measure_noise(gap, by_rounding) {
-                heights = self.check_heights(&trial.panel, steepest);
-            }
-        }
+        let panel = &mut trial.panel;
+        let heights = self.beside_noise(gap, |row| row.check_heights(panel, steepest));
         // Next to a step in the heights any difference is large.
         if heights.is_err() && !trial.hides {
             self.check_slopes(gap)?;
         }
         let hides = heights.is_err();
         if trial.level >= LEVELS_OF_A_STEP { heights.map(|()| false) } else { Ok(hides) }
+    }
+
+    /// Repeats a failed check of heights with the noise measured.
+    pub(super) fn beside_noise(
+        &mut self,
+        gap: &Gap<'_, T>,
+        mut check: impl FnMut(&Self) -> Result<(), ContactError<T>>,
+    ) -> Result<(), ContactError<T>> {
+        let mut heights = check(self);
+        for by_rounding in [false, true] {
+            if heights.is_err() && self.measure_noise(gap, by_rounding) {
+                heights = check(self);
+            }
+        }
+        heights
     }
 
     /// Raises the error estimates of accepted panels. They may miss the slope at a given limit; and
