@@ -58,8 +58,9 @@ pub struct Fit<T> {
     pub outliers: Option<T>,
     /// Length after which the body repeats, for [`Contact::period`](crate::Contact::period): one
     /// period from the first point on is described, which the first point ends, too, with the same
-    /// slope and curvature. The points are those of one period, without that at its end. Default
-    /// `None`: the ends are free.
+    /// slope and curvature. The points are those of one period, without that at its end, which is
+    /// a step behind the last one, two of the largest at most. A jump there is found like any
+    /// outlier: a scan that repeats is level. Default `None`: the ends are free.
     ///
     /// ```
     /// use linecontact::profile::{Fit, Spline};
@@ -163,10 +164,7 @@ impl<T: Real> Spline<T> {
     }
 
     pub(crate) fn fit(points: &[[T; 2]], fit: Fit<T>) -> Result<Self, SplineError<T>> {
-        points::check(points)?;
-        if let Some(most) = fit.outliers {
-            points::check_outliers(points, most)?;
-        }
+        points::check(points, fit)?;
         match fit.period {
             Some(period) => return Self::repeated(points, fit, period),
             None if fit.smooth => return Self::smoothed(points),
@@ -200,11 +198,8 @@ impl<T: Real> Spline<T> {
         fit: Fit<T>,
         placement: Placement<T>,
     ) -> Result<Self, SplineError<T>> {
-        points::check(points)?;
         // Rows are counted where the points were measured.
-        if let Some(most) = fit.outliers {
-            points::check_outliers(points, most)?;
-        }
+        points::check(points, fit)?;
         let mut placed: Vec<_> = points.iter().map(|&point| placement.apply(point)).collect();
         if placed[placed.len() - 1][0] < placed[0][0] {
             placed.reverse();
@@ -219,12 +214,6 @@ impl<T: Real> Spline<T> {
 
     /// Fits the middle one of several periods.
     fn repeated(points: &[[T; 2]], fit: Fit<T>, period: T) -> Result<Self, SplineError<T>> {
-        let (first, last) = (points[0][0], points[points.len() - 1][0]);
-        let left = first + period - last;
-        let rounding = T::of(64.0) * T::epsilon() * (first.abs() + period);
-        if !(left > rounding && left.is_finite()) {
-            return Err(SplineError::Period { period, first, last });
-        }
         let beside = FORGOTTEN / points.len() + 1;
         let copy = |i| {
             let by = period * (T::count(i) - T::count(beside));
@@ -237,7 +226,8 @@ impl<T: Real> Spline<T> {
             let spline = Self::repeated(&heights, Fit { smooth: false, ..fit }, period)?;
             return Ok(Self { noise: row.noise, smooth: row.smooth, ..spline });
         }
-        let x: Vec<_> = points.iter().map(|point| point[0]).chain([first + period]).collect();
+        let x: Vec<_> =
+            points.iter().map(|point| point[0]).chain([points[0][0] + period]).collect();
         let knots: Vec<_> = x.iter().map(|&x| row.at(x)).map(|at| [at.y, at.dy]).collect();
         Self::of(&x, &knots)
     }

@@ -27,7 +27,7 @@ fn shapes() -> Vec<Shape<f64>> {
         Shape::Wedge { slopes: [-0.1, 0.3], reach: 0.7 },
         Shape::RoundedPunch { flat: 0.3, radius: 0.7, reach: 1.1 },
         Shape::Spline { points: points.clone(), fit: Fit::default() },
-        Shape::Spline { points, fit: Fit { smooth: true, outliers: None, period: Some(40.0) } },
+        Shape::Spline { points, fit: Fit { smooth: true, outliers: None, period: Some(2.5) } },
         Shape::Piecewise { parts: vec![Shape::Line(line).into(), rise], tolerance: Some(1e-9) },
     ]
 }

@@ -562,3 +562,30 @@ fn noisy_points_of_a_period_are_smoothed_over_its_end() {
         );
     }
 }
+
+#[test]
+fn points_of_a_period_go_on_over_its_end() {
+    // A wave, not levelled, so that its height jumps where it closes; by rounding alone it does not.
+    let wave = |tilt: f64, n: u32| -> Vec<_> {
+        let x = (0..n).map(|i| f64::from(i) / f64::from(n));
+        x.map(|x| [x, tilt * x - 1.5e-4 * (2.0 * PI * x).cos()]).collect()
+    };
+    let fit = Fit { period: Some(1.0), ..Fit::default() };
+    for smooth in [false, true] {
+        let fit = Fit { smooth, ..fit };
+        let found = Spline::fitted(&wave(1e-4, 400), fit).map(|_| ());
+        assert!(
+            matches!(found, Err(SplineError::Outlier { row: 1..=2 | 399..=400, .. })),
+            "{found:?}"
+        );
+        Spline::fitted(&wave(1e-16, 400), fit).unwrap();
+    }
+    // One point may be missing at the end, but not a part of the period.
+    let points = wave(0.0, 400);
+    Spline::fitted(&points[..399], fit).unwrap();
+    for (points, period) in [(&points[..398], 1.0), (&points[..], 2.0)] {
+        let fit = Fit { outliers: None, period: Some(period), ..fit };
+        let error = Spline::fitted(points, fit).map(|_| ()).unwrap_err();
+        assert!(matches!(error, SplineError::Period { .. }), "{error}");
+    }
+}

@@ -1411,7 +1411,8 @@ class InvalidPositionError(EvaluationError):
 
 
 class HalfPlanesOnlyError(EvaluationError):
-    """The formula of a quantity is for half-planes, and the bodies have layers or another kernel.
+    """The formula of a quantity is for half-planes, and the bodies have layers, a period or another
+    kernel.
 
     Attributes
     ----------
@@ -1814,7 +1815,8 @@ class SplineOutlierError(InputError):
 
 
 class SplinePeriodError(InputError):
-    """A period is not a positive finite number, or its end is not behind the last point.
+    """A period is not a positive finite number, or its end is not behind the last point, or far
+    behind it: a part of the period is not measured.
 
     Attributes
     ----------

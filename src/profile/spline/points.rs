@@ -1,5 +1,6 @@
 //! Conditions on points that become a profile.
 
+use super::Fit;
 use crate::Real;
 use crate::rounded::{apart, six, span};
 use std::cmp::Ordering;
@@ -64,7 +65,7 @@ pub enum SplineError<T: Real> {
     /// A point is off the curve through its neighbours.
     #[error(
         "row {row}: y = {y} at x = {x}, where its neighbours suggest {expected}: {deviations} \
-         standard deviations off. Remove the row, or set Fit::outliers to None if the body has a \
+         standard deviations off. Remove the row, level the points if a period begins or ends there, or set Fit::outliers to None if the body has a \
          corner there, or its curvature changes from point to point",
         y = apart(*y, &[*expected]), x = six(*x), expected = apart(*expected, &[*y]),
         deviations = six(*deviations)
@@ -81,10 +82,11 @@ pub enum SplineError<T: Real> {
         /// Distance of the point from this cubic, in standard deviations.
         deviations: T,
     },
-    /// A period is not a positive finite number, or its end is not behind the last point.
+    /// A period is not a positive finite number, or its end is not behind the last point, or far
+    /// behind it: a part of the period is not measured.
     #[error(
-        "the period {} from the first point, x = {}, must end behind the last one, x = {last}: leave out the points \
-         from its end on, the first one repeated, too", six(*period), six(*first), last = apart(*last, &[*first])
+        "the period {} from the first point, x = {}, must end behind the last one, x = {last}, by a step \
+         like theirs: leave out the points from its end on, the first one repeated, too, or give all of a period", six(*period), six(*first), last = apart(*last, &[*first])
     )]
     Period {
         /// Period as given; 0 of a body that is turned.
@@ -115,8 +117,28 @@ pub enum SplineError<T: Real> {
     },
 }
 
+/// Refuses points that are not in order, stand out, or do not make a period.
+pub(super) fn check<T: Real>(points: &[[T; 2]], fit: Fit<T>) -> Result<(), SplineError<T>> {
+    check_order(points)?;
+    let Some(period) = fit.period else {
+        return fit.outliers.map_or(Ok(()), |most| check_outliers(points, most, points.len()));
+    };
+    let (first, last) = (points[0][0], points[points.len() - 1][0]);
+    let (left, rounding) =
+        (first + period - last, T::of(64.0) * T::epsilon() * (first.abs() + period));
+    let step = points.windows(2).fold(T::zero(), |most, pair| most.max(pair[1][0] - pair[0][0]));
+    // One point may be left out there; of more a part is not measured.
+    if !(left > rounding && left <= T::of(2.0) * step + rounding) {
+        return Err(SplineError::Period { period, first, last });
+    }
+    // A jump where the period closes stands out between this one and the next.
+    let next = points.iter().map(|&[x, y]| [x + period, y]);
+    let closed: Vec<_> = points.iter().copied().chain(next).collect();
+    fit.outliers.map_or(Ok(()), |most| check_outliers(&closed, most, points.len()))
+}
+
 /// Refuses points that are too few, not finite or not in order.
-pub(super) fn check<T: Real>(points: &[[T; 2]]) -> Result<(), SplineError<T>> {
+fn check_order<T: Real>(points: &[[T; 2]]) -> Result<(), SplineError<T>> {
     let mut before = None;
     for (i, &[x, y]) in points.iter().enumerate() {
         let row = i + 1;
@@ -136,13 +158,13 @@ pub(super) fn check<T: Real>(points: &[[T; 2]]) -> Result<(), SplineError<T>> {
 }
 
 /// Refuses the point that is furthest off the curve through its neighbours, if it is off by more
-/// than `most` standard deviations.
-pub(super) fn check_outliers<T: Real>(points: &[[T; 2]], most: T) -> Result<(), SplineError<T>> {
+/// than `most` standard deviations. After `rows` points they repeat.
+fn check_outliers<T: Real>(points: &[[T; 2]], most: T, rows: usize) -> Result<(), SplineError<T>> {
     // Refuses NaN, too.
     if most.partial_cmp(&T::zero()) != Some(Ordering::Greater) {
         return Err(SplineError::Limit { deviations: most });
     }
-    if points.len() < FEWEST {
+    if rows < FEWEST {
         return Ok(());
     }
     let all: Vec<T> = (0..points.len()).map(|i| deviation(points, i).abs()).collect();
@@ -175,9 +197,9 @@ pub(super) fn check_outliers<T: Real>(points: &[[T; 2]], most: T) -> Result<(), 
     let Some((i, off)) = worst else { return Ok(()) };
     let deviations = off / scale_at(i).max(floor / most);
     let i = culprit(points, i);
-    let [x, y] = points[i];
+    let ([x, _], [_, y]) = (points[i % rows], points[i]);
     let (expected, _) = foretold(points, i);
-    Err(SplineError::Outlier { row: i + 1, x, y, expected, deviations })
+    Err(SplineError::Outlier { row: i % rows + 1, x, y, expected, deviations })
 }
 
 /// Returns true if an error of one point explains the distances in the three rows of five around
