@@ -255,9 +255,9 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (lambda: solved(quadrature=lc.Midpoint(0)), "InvalidSegmentsError", {"segments": 0}),
     (lambda: solved(tolerance=2.0), "InvalidToleranceError", {"tolerance": 2.0}),
     (
-        lambda: solved(resolution=-1.0),
+        lambda: solved(resolution=1e-9),
         "InvalidResolutionError",
-        {"resolution": -1.0, "least": 6.357828776041667e-06},
+        {"resolution": 1e-9, "least": 6.357828776041667e-06},
     ),
     (
         lambda: solved(edges=(lc.Edge.adhesive(-1.0), lc.Edge.adhesive(-1.0))),
@@ -290,7 +290,8 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     (lambda: lc.Material(math.nan, 0.3), "InvalidYoungsModulusError", {}),
     (lambda: lc.contact_modulus(STEEL, (0.0, 0.3)), "InvalidYoungsModulusError", {"modulus": 0.0}),
     (lambda: lc.Stress(1.0, 1.0, 0.0).von_mises(0.7), "InvalidPoissonRatioError", {"ratio": 0.7}),
-    (lambda: solved(period=0.0), "InvalidPeriodError", {"period": 0.0}),
+    (lambda: contact(resolution=-1.0), "InvalidResolutionError", {"resolution": -1.0, "least": 0.0}),
+    (lambda: contact(period=-2.0), "InvalidPeriodError", {"period": -2.0}),
     (lambda: solved(period=2.0), "NotPeriodicError", {"body": "upper", "what": "the slope", "ends": (-1.0, 1.0)}),
     (
         lambda: lc.solve(FLAT, FLAT, kappa=1.0, period=1.0, load=1.0),

@@ -52,7 +52,7 @@ def bodies() -> list[lc.Body]:
         lc.Wedge((-0.1, 0.3), 0.7),
         lc.RoundedPunch(0.3, 0.7, 1.1),
         lc.Spline(points),
-        lc.Spline(points, period=100.0),
+        lc.Spline(points, period=2.1),
         lc.Spline(points + np.column_stack([0 * x, 1e-6 * np.sin(99 * x)]), smooth=True, outliers=None),
         lc.Piecewise([flank, lc.Line(0.1, (0.0, 1.0)).scaled(0.7)], 1e-9),
         lc.Piecewise([flank, lc.Line(0.1, (0.0, 1.0))]),

@@ -233,6 +233,7 @@ def test_columns_that_no_header_names(tmp_path: Path) -> None:
         assert found.points.tolist() == [[0, 3], [1, 4]], text
 
 
+@pytest.mark.filterwarnings("ignore:.*is taken for heights upwards")
 def test_columns_are_taken_as_they_are_named(tmp_path: Path) -> None:
     turned = lc.read_profile(written(tmp_path, "turned.csv", "z [um];x [mm]\n0;1\n1;2\n4;3\n"))
     np.testing.assert_allclose(turned.points, [[1.0, 0.0], [2.0, 1e-3], [3.0, 4e-3]])
@@ -699,3 +700,15 @@ def test_random_damage_is_told(tmp_path: Path) -> None:
             except lc.errors.MeasuredFileError:
                 continue
             assert np.all(np.isfinite(points)) and np.all(np.diff(points[:, 0]) > 0)
+
+
+def test_depths_are_told(tmp_path: Path) -> None:
+    for name in ("Tiefe [um]", "z depth (um)"):
+        with pytest.warns(UserWarning, match=r"is taken for heights upwards.*Spline\(...\).flipped\(\)"):
+            lc.read_profile(written(tmp_path, "depth.csv", f"x [mm];{name}\n0;1\n1;2\n"))
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_footer_below_equal_heights_leaks_no_warning(tmp_path: Path) -> None:
+    rows = "".join(f"0,{i}00;{-66.7 - i * (4 - i)}\n".replace(".", ",") for i in range(5))
+    assert len(lc.read_profile(written(tmp_path, "a.csv", f"x [mm];z [um]\n{rows}\n0,000;-66,7\n")).points) == 5

@@ -804,3 +804,13 @@ def test_measured_points_of_a_period() -> None:
         lc.solve(FLAT, lc.Spline(points), contact_modulus=1.0, period=float(x[-1]), load=0.01)
     with pytest.raises(lc.errors.SplinePeriodError, match="must end behind the last one"):
         lc.Spline(points, period=float(x[-1]))
+    with pytest.raises(lc.errors.SplinePeriodError, match="give all of a period"):
+        lc.Spline(points, period=2.6)
+    with pytest.raises(lc.errors.SplineOutlierError, match="level the points"):
+        lc.Spline(points + 1e-2 * points[:, :1] * [0, 1], period=1.3)
+    periodic = lc.solve(FLAT, body, contact_modulus=1.0, period=1.3, load=0.01)
+    with pytest.raises(lc.errors.HalfPlanesOnlyError, match="a layer, a period or"):
+        periodic.uncertainty()
+    for count in (-1, 1, 10**9, 3.0):
+        with pytest.raises(ValueError, match=r"count is .*: give a whole number from 2 to 1048576"):
+            periodic.sample(count)  # type: ignore[arg-type]

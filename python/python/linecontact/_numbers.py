@@ -77,6 +77,13 @@ def as_numbers(given: Any, name: str) -> FloatArray:
     return np.asarray(found, dtype=np.float64)
 
 
+def as_count(given: Any, name: str, least: int, most: int) -> int:
+    """Converts to a whole number of a range; refuses any other."""
+    if isinstance(given, int | np.integer) and not isinstance(given, bool) and least <= given <= most:
+        return int(given)
+    raise ValueError(f"{name} is {given!r}: give a whole number from {least} to {most}")
+
+
 def one_of(given: Any, name: str, allowed: Sequence[str]) -> str:
     """Returns a word of a choice; refuses any other."""
     if isinstance(given, str) and given in allowed:

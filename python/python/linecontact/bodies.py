@@ -517,7 +517,7 @@ class Spline(Body):
     period : float, optional
         Length after which the body repeats, for the period of a `Contact`: the first point ends
         the period, too, with the same slope and curvature. The points are those of one period,
-        without that at its end. By default the ends are free.
+        level, without that at its end. By default the ends are free.
 
     Raises
     ------

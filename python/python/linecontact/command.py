@@ -6,6 +6,7 @@ import argparse
 import io
 import math
 import os
+import re
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -122,7 +123,8 @@ def _solve(given: argparse.Namespace, parser: argparse.ArgumentParser) -> int:
         if row.error is not None:
             is_control = isinstance(row.error, (InvalidLoadError, InvalidMomentError))
             code = _USAGE if is_control else _SCENE if isinstance(row.error, InputError) else _FAILED
-            codes.append(_say(f"{given.scene}: {described(row.control)}: {row.error}", code))
+            says = re.sub(r"Edge\.(\w+)\((.*?)\)", r"\1 = \2 in edges", str(row.error))
+            codes.append(_say(f"{given.scene}: {described(row.control)}: {says}", code))
     return max(codes)
 
 

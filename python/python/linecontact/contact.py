@@ -511,13 +511,13 @@ def _prescribed(
     return kind, values, None if references is None else as_references(references)
 
 
-def _stiffness(given: float | None, name: str, error: str, attribute: str) -> float | None:
-    """Returns E* or κ, if it is given; refuses an impossible one."""
+def _positive(given: float | None, name: str, error: str, attribute: str, **others: float) -> float | None:
+    """Returns E*, κ or a length, if it is given; refuses an impossible one."""
     if given is None:
         return None
     number = as_number(given, name)
     if not 0.0 < number < math.inf:
-        raise refusal(error, f"{name} is {number:g}: it must be positive and finite", **{attribute: number})
+        raise refusal(error, f"{name} is {number:g}: it must be positive and finite", **{attribute: number}, **others)
     return number
 
 
@@ -624,8 +624,8 @@ class Contact(Unchanging):
                 raise TypeError("the tolerance is that of Panels: give it there, or no quadrature")
             quadrature = Panels(as_number(tolerance, "tolerance"))
         self.lower, self.upper = lower, upper
-        contact_modulus = _stiffness(contact_modulus, "contact_modulus", "InvalidModulusError", "modulus")
-        kappa = _stiffness(kappa, "kappa", "InvalidKappaError", "kappa")
+        contact_modulus = _positive(contact_modulus, "contact_modulus", "InvalidModulusError", "modulus")
+        kappa = _positive(kappa, "kappa", "InvalidKappaError", "kappa")
         self._settings: dict[str, Any] = {
             "contact_modulus": contact_modulus,
             "materials": materials,
@@ -637,8 +637,8 @@ class Contact(Unchanging):
             "limit_search": limit_search,
             "inversion": inversion,
             "quadrature": quadrature,
-            "resolution": None if resolution is None else as_number(resolution, "resolution"),
-            "period": None if period is None else as_number(period, "period"),
+            "resolution": _positive(resolution, "resolution", "InvalidResolutionError", "resolution", least=0.0),
+            "period": _positive(period, "period", "InvalidPeriodError", "period"),
             "certified": certified,
             "single_interval": single_interval,
         }

@@ -52,6 +52,8 @@ _ALONG = re.compile(
     r"|travers?e?|travel"
 )
 _ACROSS = re.compile(r"(?:z[-_]?)?(?:h(?:ö|oe|o)he|height|z)(?:[-_]?z)?")
+# Names of heights into the material.
+_DEPTH = re.compile(r"(?:z[-_]?)?(?:tiefe|depth)(?:[-_]?z)?")
 # Words of a row that is none of the points.
 _SUMMARY = re.compile(r"(?:mean|average|avg|mittel(?:wert)?|median|sum(?:me)?|total|count|anzahl|std(?:ev)?|rms)\.?", re.IGNORECASE)
 # Most rows of a footer of numbers, such as the count and the mean of the points.
@@ -301,6 +303,9 @@ def _text(
     x, z = _in_order(heads) if columns is None else (_numbered(name, heads, column) for column in columns)
     if min(x, z) < 1 or max(x, z) > width or x == z:
         raise MeasuredFileError(name, f"columns are {columns}: give two of 1 to {width}", first + 1)
+    if depth := next((head.ways[0][z - 1] for head in heads if z <= len(head.ways[0]) and _DEPTH.fullmatch(_bare(head.ways[0][z - 1]))), None):
+        says = f"{depth!r} is taken for heights upwards: if it rises into the material, a lower body is Spline(...).flipped()"
+        warnings.warn(f"{name}: {says}, and an upper body the Spline", stacklevel=3)
     above = [at for at, line in enumerate(lines[:first]) if any(_cells(line, delimiter))]
     while above and (stray := _stray(name, cells := _cells(lines[above[-1]], delimiter), above[-1] + 1, x, z)):
         # Words of other columns may differ from row to row.
@@ -390,7 +395,7 @@ def _is_footer(body: Sequence[list[str]], behind: Sequence[list[str]], width: in
         return True
     table = np.array([[_number(cell) for cell in cells[:width]] for cells in [*body, behind[0]]], dtype=np.float64)
     steps, length = np.diff(table, axis=0), table[-2] - table[0]
-    goes_on = (steps[:-1] * length > 0.0).all(axis=0) & (steps[-1] / length > 0.0) & (steps[-1] / length <= 1.0)
+    goes_on = (steps * length > 0.0).all(axis=0) & (np.abs(steps[-1]) <= np.abs(length))
     return not goes_on.any()
 
 

@@ -11,6 +11,7 @@ from . import _native
 from ._numbers import (
     FloatArray,
     Numbers,
+    as_count,
     as_number,
     as_numbers,
     as_range,
@@ -690,7 +691,7 @@ class Solution:
         return _plain(values.reshape(places.shape)), _plain(errors.reshape(places.shape))
 
     def sample(self, count: int = 257) -> tuple[FloatArray, FloatArray]:
-        """Returns places and pressures for drawing by straight lines, `count` in each contact.
+        """Returns places and pressures for drawing by straight lines, `count` in each contact: 2 to 2**20.
 
         Examples
         --------
@@ -700,7 +701,7 @@ class Solution:
         >>> x.size, bool(x[0] == -solution.b)
         (65, True)
         """
-        return self._found.sample(count)
+        return self._found.sample(as_count(count, "count", 2, 2**20))
 
     def peak(self) -> Peak:
         """Returns the largest pressure and its x.
