@@ -78,8 +78,8 @@ pub enum EvaluationError<T: Real> {
         /// Contact.
         interval: Interval<T>,
     },
-    /// The formula of a quantity is for half-planes, and the bodies have layers, a period or another
-    /// kernel.
+    /// The formula of a quantity is for half-planes, and the bodies have layers, a period or
+    /// another kernel.
     #[error("{quantity} is not known of bodies with a layer, a period or another kernel")]
     HalfPlanesOnly {
         /// Name of the quantity.

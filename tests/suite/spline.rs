@@ -565,7 +565,7 @@ fn noisy_points_of_a_period_are_smoothed_over_its_end() {
 
 #[test]
 fn points_of_a_period_go_on_over_its_end() {
-    // A wave, not levelled, so that its height jumps where it closes; by rounding alone it does not.
+    // The height of a wave that is not level jumps where it closes; a tilt by rounding is none.
     let wave = |tilt: f64, n: u32| -> Vec<_> {
         let x = (0..n).map(|i| f64::from(i) / f64::from(n));
         x.map(|x| [x, tilt * x - 1.5e-4 * (2.0 * PI * x).cos()]).collect()
