@@ -231,3 +231,40 @@ fn lands_and_grooves_between_walls_that_no_node_meets_are_seen_by_their_heights(
     assert!(missed.is_empty(), "{}:\n{}", missed.len(), missed.join("\n"));
     assert!(refused <= scenes / 10, "{refused}");
 }
+
+/// A groove whose walls are a thousandth of the body or less: in a span that short the survey took
+/// the uncertainty at a wall for noise, and one of the two lands for all that touches, checked. Of
+/// 101 loads at one place 78 were wrong.
+#[test]
+fn lands_beside_walls_of_a_thousandth_of_the_body_touch() {
+    let scenes = std::env::var("SCENES").map_or(30, |count| count.parse().unwrap());
+    let mut dice = Dice::new(11);
+    let mut refused = 0;
+    for i in 0..scenes {
+        let (wall, depth) = ([1e-4, 3e-5][i % 2], dice.within(5e-3, 2e-2));
+        let (width, place) = (dice.within(0.08, 0.12), dice.within(-0.04, 0.04));
+        let at = move |x: f64| {
+            let [one, other] = [-0.5, 0.5].map(|end| ((x - place - end * width) / wall).tanh());
+            CurvePoint {
+                x,
+                y: x * x / 20.0 + 0.5 * depth * (one - other),
+                dx: 1.0,
+                dy: x / 10.0 + 0.5 * depth / wall * (other * other - one * one),
+            }
+        };
+        let body = Curve::new([-1.0, 1.0], at);
+        let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115_384.6);
+        let load = dice.within(60.0, 160.0);
+        let Ok(solution) = contact.solve(Control::Load(load)) else {
+            refused += 1;
+            continue;
+        };
+        // Heights everywhere outside the contacts.
+        let is_open = |x: &f64| !solution.intervals().iter().any(|on| on.contains(*x));
+        let places = (0..400).map(|i| -0.3 + 0.6 * f64::from(i) / 400.0).filter(is_open);
+        let least = places.map(|x| solution.gap_at(x).unwrap()).fold(f64::INFINITY, f64::min);
+        assert!(least > -1e-9, "{wall} {depth} {width} {place} {load}: {least}: {solution}");
+    }
+    println!("{refused} refused");
+    assert!(refused <= scenes / 20, "{refused} refused");
+}

@@ -2,7 +2,7 @@
 
 use super::check::check;
 use super::hull_in;
-use super::panel::{Missed, Panel, missed_by};
+use super::panel::{MAX_HALVING_RATIO, Missed, Panel, missed_by};
 use super::segment::Segment;
 use super::series::{BodyPoint, FURTHER, SAMPLES, Series, TESTED};
 use crate::gap::Surface;
@@ -344,6 +344,13 @@ impl<T: Real> Body<T> {
             .filter(|_| right.is_inside[0] && left.piece == right.piece);
         let Some((one, other)) = both else { return };
         let (one, other) = (&self.series[one], &self.series[other]);
+        // Noise is as large in the next panel; a wall is not, and each halving has found it closer.
+        for (own, next) in [(before, right.doubt), (i, left.doubt)] {
+            let own = &mut self.panels[own];
+            if next <= T::of(MAX_HALVING_RATIO) * own.doubt && own.since.is_finite() {
+                own.since = (own.k[1] - own.k[0]).abs();
+            }
+        }
         let known = if other.doubt < one.doubt { other } else { one };
         let [x, y, slope] = known.at_t(known.t(right.k[0]));
         let from = inner(&self.series, &left).last().map_or(left.ends[0].x, |row| row.x);

@@ -13,7 +13,7 @@ const MAX_REMAINING: f64 = 0.01;
 
 /// Largest share of its uncertainty that halving leaves of a panel that resolves the body: a series
 /// of eight terms leaves 1/256 or less.
-const MAX_HALVING_RATIO: f64 = 0.125;
+pub(super) const MAX_HALVING_RATIO: f64 = 0.125;
 
 /// Point of a piece that a series has missed.
 #[derive(Clone, Copy, Debug)]
