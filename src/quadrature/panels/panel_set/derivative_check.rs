@@ -2,7 +2,7 @@
 
 use super::PanelSet;
 use crate::gap::{Cost, CurveSample, Gap, Sampler};
-use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, Table};
+use crate::numerics::chebyshev::Table;
 use crate::quadrature::panels::panel::{NodeHeight, Panel, rise, within};
 use crate::{Body, ContactError, InputError, Interval, ProfileError, Real};
 
@@ -44,16 +44,11 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    /// Returns the noise of a body's height at a given slope; zero if it was not measured.
-    fn noise_of_height(&self, body: usize, slope: T) -> T {
-        self.noise.map_or(T::zero(), |noise| noise[body].of_height(slope))
-    }
-
     /// Checks that the gap rises from each node to the next by the same amount by heights as by
     /// slopes, within the uncertainty of both: a step in the heights shows in no slope. `steepest`
     /// is the largest sum of the slopes of both bodies. (Waves that both bodies share are not in
     /// the gap, and their slopes need not be resolved.)
-    pub(super) fn check_heights(
+    pub(super) fn check_heights<const N: usize>(
         &self,
         panel: &mut Panel<T>,
         steepest: T,
@@ -61,19 +56,18 @@ impl<T: Real> PanelSet<T> {
         if self.traces.iter().all(|cache| cache.direct) {
             return Ok(());
         }
-        let (n, half, table) = (panel.n, panel.half(), Table::of(panel.n));
+        let (half, table) = (panel.half(), Table::of(N));
         let place = |i: usize| panel.x[0] + half * T::of(1.0 + table.z[i]);
-        let places: Coeffs<T> = std::array::from_fn(|i| place(i.min(n - 1)));
-        let mut near = self.heights_near(&places[..n]);
-        panel.outermost = Some([near[0], near[n - 1]]);
-        let mut by_slopes = [T::zero(); MAX_SIZE];
+        let mut near = self.heights_near::<N>(std::array::from_fn(place));
+        panel.outermost = Some([near[0], near[N - 1]]);
+        let mut by_slopes = [T::zero(); N];
         for (i, cache) in self.traces.iter().enumerate() {
-            let slopes = &self.slopes[i][..n];
+            let slopes = &self.slopes[i][..N];
             if slopes.iter().all(T::is_zero) {
                 continue;
             }
             let reach = sign::<T>(i) * half;
-            for (j, rise) in table.rises(slopes)[..n].iter().enumerate() {
+            for (j, rise) in table.rises(slopes)[..N].iter().enumerate() {
                 by_slopes[j] += reach * *rise;
                 if cache.direct {
                     near[j].height += reach * *rise;
@@ -81,7 +75,7 @@ impl<T: Real> PanelSet<T> {
             }
         }
         let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.error;
-        match self.contradiction(&near[..n], by_slopes, share) {
+        match self.contradiction(&near, &by_slopes, share) {
             Some((_, error)) => Err(error),
             None => Ok(()),
         }
@@ -89,20 +83,20 @@ impl<T: Real> PanelSet<T> {
 
     /// Returns the heights at places, of the bodies whose points were taken near them. The next
     /// point bounds the change of slope up to a place.
-    pub(super) fn heights_near(&self, places: &[T]) -> [NodeHeight<T>; MAX_SIZE] {
-        let zero = T::zero();
-        let node = |i| NodeHeight { x: places[i], height: zero, doubt: zero, slopes: [zero; 2] };
-        let mut nodes: [_; MAX_SIZE] = std::array::from_fn(|i| node(i.min(places.len() - 1)));
+    pub(super) fn heights_near<const N: usize>(&self, places: [T; N]) -> [NodeHeight<T>; N] {
+        let (height, doubt) = (T::zero(), T::zero());
+        let mut nodes = places.map(|x| NodeHeight { x, height, doubt, slopes: [T::zero(); 2] });
         for (body, cache) in self.traces.iter().enumerate() {
-            for (i, node) in nodes[..places.len()].iter_mut().enumerate() {
-                if cache.direct {
-                    node.slopes[body] = self.slopes[body][i];
-                    continue;
-                }
-                let [near, next] =
-                    [i, if i == 0 { 1 } else { i - 1 }].map(|i| cache.curve_samples()[i]);
+            if cache.direct {
+                let both = nodes.iter_mut().zip(&self.slopes[body]);
+                both.for_each(|(node, &slope)| node.slopes[body] = slope);
+                continue;
+            }
+            let (points, highest) = (cache.curve_samples(), cache.height());
+            for (i, node) in nodes.iter_mut().enumerate() {
+                let (near, next) = (points[i], points[if i == 0 { 1 } else { i - 1 }]);
                 let missed = node.x - near.x;
-                let highest = cache.height().max(near.y.abs() + (near.x * near.slope).abs());
+                let highest = highest.max(near.y.abs() + (near.x * near.slope).abs());
                 node.height += sign::<T>(body) * (near.y + missed * near.slope);
                 node.doubt += (missed * (next.slope - near.slope)).abs() + rounding(highest);
                 node.slopes[body] = near.slope;
@@ -146,10 +140,8 @@ impl<T: Real> PanelSet<T> {
     ) -> Result<(), ContactError<T>> {
         let [from, to] = nodes;
         let mut open = from.doubt + to.doubt + share * (to.x - from.x);
-        for (body, _) in self.traces.iter().enumerate().filter(|(_, cache)| !cache.direct) {
-            for node in nodes {
-                open += self.noise_of_height(body, node.slopes[body]);
-            }
+        for (body, noise) in self.noise.iter().flatten().enumerate() {
+            open += noise.of_height(from.slopes[body]) + noise.of_height(to.slopes[body]);
         }
         let (between, by_heights) = ([from.x, to.x], to.height - from.height);
         Rises { between, by_heights, by_slopes, highest: T::zero(), open }.compare()
@@ -160,7 +152,7 @@ impl<T: Real> PanelSet<T> {
     pub(super) fn contradiction(
         &self,
         near: &[NodeHeight<T>],
-        by_slopes: Coeffs<T>,
+        by_slopes: &[T],
         share: T,
     ) -> Option<(usize, ContactError<T>)> {
         (1..near.len()).find_map(|i| {

@@ -6,8 +6,8 @@
 //! series.
 
 use super::PanelSet;
-use crate::gap::{Gap, SampleCache};
-use crate::numerics::chebyshev::{MAX_SIZE, Table, by_size, primitive, values};
+use crate::gap::Gap;
+use crate::numerics::chebyshev::{Table, by_size, primitive, values};
 use crate::quadrature::panels::Panel;
 use crate::{ContactError, Interval, Real};
 
@@ -135,21 +135,27 @@ impl<T: Real> PanelSet<T> {
         // Also outside the contact: a limit may leave little of a feature inside.
         let missed = (0..N).filter(|&i| off(i) > allowed);
         let worst = missed.reduce(|one, other| if off(other) > off(one) { other } else { one });
-        // A groove between two nodes may have walls that no place meets; then its heights show it.
-        // (What a body rises that knows its slopes, but is not level, is unknown here.)
-        let is_level = |(cache, slopes): (&SampleCache<T>, [T; N])| {
-            !cache.direct || slopes.iter().all(T::is_zero)
-        };
-        if worst.is_some() || !self.traces.iter().zip([lower, upper]).all(is_level) {
+        if worst.is_some() {
             return Ok(worst.map(|i| places[i]));
         }
+        // A groove between two nodes may have walls that no place meets; then its heights show it.
         let at = places.map(|x| panel.local(x));
         let rises = values(&primitive(panel.coefficients())[..=panel.length], &at);
-        let mut by_slopes = [T::zero(); MAX_SIZE];
-        by_slopes.iter_mut().zip(rises).for_each(|(sum, rise)| *sum = reach * rise);
+        let rises = rises.map(|rise| reach * rise);
+        let mut near = self.heights_near(places);
+        // Of a body that knows its slopes the rise is between those by the slope at either place.
+        let known = [lower.map(|slope| -slope), upper];
+        for (slopes, _) in known.iter().zip(&self.traces).filter(|(_, cache)| cache.direct) {
+            let mut height = T::zero();
+            for i in 1..N {
+                let half = T::of(0.5) * (places[i] - places[i - 1]);
+                height += half * (slopes[i - 1] + slopes[i]);
+                near[i].height += height;
+                near[i].doubt += half * (slopes[i] - slopes[i - 1]).abs();
+            }
+        }
         let share = T::epsilon().cbrt() * steepest + T::of(16.0) * panel.error;
-        let near = self.heights_near(&places);
-        let found = self.contradiction(&near[..N], by_slopes, share);
+        let found = self.contradiction(&near, &rises, share);
         Ok(found.map(|(i, _)| places[i]))
     }
 }

@@ -135,7 +135,10 @@ impl<T: Real> PanelSet<T> {
         steepest: T,
     ) -> Result<bool, ContactError<T>> {
         let panel = &mut trial.panel;
-        let heights = self.beside_noise(gap, |row| row.check_heights(panel, steepest));
+        let heights = self.beside_noise(
+            gap,
+            |row| by_size!(panel.n, N => row.check_heights::<N>(panel, steepest)),
+        );
         // Next to a step in the heights any difference is large.
         if heights.is_err() && !trial.hides {
             self.check_slopes(gap)?;
