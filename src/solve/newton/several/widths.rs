@@ -8,18 +8,13 @@ use std::cmp::Ordering;
 /// Least share of its width that a contact or a gap keeps in one step.
 const LEAST_WIDTH_LEFT: f64 = 0.3;
 
-/// Largest step by which a limit widens a gap, as a share of the gap. (With whole gaps 23 of 240
-/// grooves and lands between the narrowest walls were refused, and 43 with whole contacts: next to
-/// a wall the pressure changes within less than the gap.)
-const MAX_WIDENED: f64 = 0.25;
-
 /// Width below which a gap counts as closed, in units of rounding of x.
 const CLOSED_WIDTH: f64 = 64.0;
 
 impl<T: Real> NewtonSeveral<T> {
     /// Shortens the moves of the limits: two neighbours leave at least a share of the width between
     /// them, and a limit moves outward by no more than the width of its contact, inward by no more
-    /// than a share of the gap behind. Lists the widths that would have become too narrow.
+    /// than would narrow a gap as wide as that behind. Lists the widths that would have become too narrow.
     pub(super) fn shorten(&mut self) {
         self.widths.clear();
         let (half, last) = (T::of(0.5), self.moves.len() - 1);
@@ -30,7 +25,9 @@ impl<T: Real> NewtonSeveral<T> {
             let beside = [i.checked_sub(1), Some(i).filter(|&i| i < last)];
             let [behind, ahead] = if self.moves[i] < T::zero() { [1, 0] } else { [0, 1] };
             let narrowed = |i: Width| (half * (T::one() - self.least(i)) * self.width(i), Some(i));
-            let widened = |i: Width| (T::of([1.0, MAX_WIDENED][i % 2]) * self.width(i), None);
+            // Next to a wall the pressure changes within less than the gap.
+            let share = |i: Width| T::of([1.0, 0.5 * (1.0 - LEAST_WIDTH_LEFT)][i % 2]);
+            let widened = |i: Width| (share(i) * self.width(i), None);
             let both = [beside[ahead].map(narrowed), beside[behind].map(widened)];
             let least = both
                 .into_iter()
