@@ -194,7 +194,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     /// long as their panels miss narrow features.
     fn converge(&mut self) -> Result<ContactState<T>, Fault<T>> {
         let may_be_held = self.hold()?;
-        let (mut fault, mut passed) = (None, Ends::both(0));
+        let (mut fault, mut passed) = (None, Ends::both(false));
         for _ in 0..MAX_HELD_ROUNDS {
             let mut found = match self.converge_once() {
                 Ok(found) => found,
@@ -210,9 +210,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             if self.misses(&found)? {
                 continue;
             }
-            if !may_be_held
-                || !self.passes(&found, &mut passed)? && !self.lets_go(&mut found, passed)?
-            {
+            if !may_be_held || !self.passes(&found, &mut passed)? && !self.lets_go(&mut found)? {
                 return Ok(found);
             }
         }

@@ -63,9 +63,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         self.resolve(found)?;
         let gap = &self.contact.gap.tilted(found.tilt);
-        // Between several contacts the gap is not convex, whatever the survey has seen.
-        let is_one = self.work.integrator.several().is_none();
-        let is_proved = is_one && (self.is_convex() || self.touches_once(gap, found)?);
+        // The contact of a convex gap is found by the first search, for one: after a fault the gap is
+        // none, whatever the survey has seen.
+        let is_first = self.is_of_one();
+        let is_proved = is_first && (self.is_convex() || self.touches_once(gap, found)?);
         if is_proved && !self.corrects_survey()? {
             return Ok(lifts_off);
         }

@@ -42,10 +42,6 @@ const SHORT_WALL: f64 = 1e-4;
 /// Share of a contact's half-width by which a limit leaves a corner inward.
 const STEP_INWARD: f64 = 0.01;
 
-/// Number of times that a limit passes its corner, after which it stays held there: the first time,
-/// the other limit may have been free, too.
-const MAX_PASSES: usize = 2;
-
 /// Least ratio of distances d that are let go together.
 const TOGETHER: f64 = 0.01;
 
@@ -149,12 +145,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Holds the limits of the only contact that have passed a corner at an end of the bodies, or
-    /// one inside by less than x is known; tells whether there are any, and counts them in
-    /// `passed`.
+    /// one inside by less than x is known; tells whether there are any, and notes the
+    /// sides in `passed`.
     pub(super) fn passes(
         &mut self,
         found: &ContactState<T>,
-        passed: &mut Ends<usize>,
+        passed: &mut Ends<bool>,
     ) -> Fallible<T, bool> {
         let (edges, on, mut any) = (self.edges(), found.interval, false);
         if self.work.workspace.newton.on.len() > 1 {
@@ -165,7 +161,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             let least = |z: T| T::of(8.0) * T::epsilon() * (z.abs() + on.half_width());
             let z = match edges[side] {
                 Edge::FreeUntil(z) if beyond(z) > least(z) => Some(z),
-                Edge::FreeUntil(_) | Edge::Free if passed[side] == 0 => {
+                Edge::FreeUntil(_) | Edge::Free if !passed[side] => {
                     self.corner_untold(found, side)?
                 }
                 _ => None,
@@ -177,7 +173,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                     newton.held.resize(1, Ends::both(false));
                 }
                 self.hold_at(0, side, z);
-                (passed[side], any) = (passed[side] + 1, true);
+                (passed[side], any) = (true, true);
             }
         }
         Ok(any)
@@ -292,22 +288,16 @@ impl<T: Real> Search<'_, '_, '_, T> {
         slopes
     }
 
-    /// Lets go of corners that do not hold the contacts found, unless a free limit has passed them
-    /// time and again; tells whether there are any. Otherwise adds the error of the limits that
-    /// stay held.
-    pub(super) fn lets_go(
-        &mut self,
-        found: &mut ContactState<T>,
-        passed: Ends<usize>,
-    ) -> Fallible<T, bool> {
+    /// Lets go of corners that do not hold the contacts found; tells whether there are any.
+    /// Otherwise adds the error of the limits that stay held.
+    pub(super) fn lets_go(&mut self, found: &mut ContactState<T>) -> Fallible<T, bool> {
         if !self.work.workspace.newton.held.iter().any(|held| *held != Ends::both(false)) {
             return Ok(false);
         }
         let held = self.strengths(found);
         let lower =
             |one: Held<T>, other: Held<T>| if other.strength < one.strength { other } else { one };
-        let held = held.into_iter().filter(|held| passed[held.side] < MAX_PASSES);
-        let lowest = held.reduce(lower).filter(|held| held.strength < T::zero());
+        let lowest = held.into_iter().reduce(lower).filter(|held| held.strength < T::zero());
         if let Some(Held { contact, side, z, .. }) = lowest {
             let Workspace { newton, before, .. } = &*self.work.workspace;
             let step = -T::of(STEP_INWARD) * newton.on[contact].half_width();
@@ -324,9 +314,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 continue;
             }
             let half_width = self.work.workspace.newton.on[contact].half_width();
-            // A wall that does not make up for the pressure is no corner.
-            let as_before = outward::<T>(side) * (self.work.workspace.before[contact][side] - z);
-            let d = self.beyond(contact, side, strength)?.unwrap_or(as_before);
+            let d = self.beyond(contact, side, strength)?;
             // The rounding of x changes the pressure by a share ε x/(2 d).
             let rounding = T::epsilon() * z.abs().max(half_width);
             if d.abs() > (rounding * half_width).sqrt() {
@@ -398,8 +386,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Returns the distance d beyond a corner at which a contact ends, given the strength with the
     /// limit held there: up to half a half-width, or to the middle of the gap to the next contact.
-    /// `None` if the wall beyond is too low.
-    fn beyond(&mut self, contact: usize, side: Side, strength: T) -> Fallible<T, Option<T>> {
+    fn beyond(&mut self, contact: usize, side: Side, strength: T) -> Fallible<T, T> {
         let rule = GaussLegendre::coarsest();
         let (half, on) = (T::of(0.5), &self.work.workspace.newton.on);
         let (z, half_width) = (on[contact][side], on[contact].half_width());
@@ -424,24 +411,23 @@ impl<T: Real> Search<'_, '_, '_, T> {
             let sum = both.fold(T::zero(), |sum, (&rise, &[_, weight])| sum + weight * rise);
             Ok(sum * root / due)
         };
-        // No wall is steeper: d is at least as large.
-        let mut low = (due / (steepest + steepest)).min(most);
-        let (mut high, mut before) = (low, T::zero());
+        // No wall is steeper: d is at least as large; and no place is told from the corner below the
+        // rounding of x.
+        let rounding = (T::of(8.0) * T::epsilon() * z.abs()).sqrt();
+        let mut low = (due / (steepest + steepest)).max(rounding).min(most);
+        let mut high = low;
         for _ in 0..MAX_ROOT_DOUBLINGS {
             let share = share_at(high)?;
             if high >= most || share >= T::one() {
                 break;
             }
-            if share < before {
-                return Ok(None);
-            }
-            (low, high, before) = (high, (high + high).min(most), share);
+            (low, high) = (high, (high + high).min(most));
         }
         for _ in 0..HALVINGS {
             let root = (low * high).sqrt();
             if share_at(root)? < T::one() { low = root } else { high = root }
         }
-        Ok(Some(low * high))
+        Ok(low * high)
     }
 }
 
