@@ -14,7 +14,8 @@ const CLOSED_WIDTH: f64 = 64.0;
 impl<T: Real> NewtonSeveral<T> {
     /// Shortens the moves of the limits: two neighbours leave at least a share of the width between
     /// them, and a limit moves outward by no more than the width of its contact, inward by no more
-    /// than would narrow a gap as wide as that behind. Lists the widths that would have become too narrow.
+    /// than would narrow a gap as wide as that behind. Lists the widths that would have become too
+    /// narrow.
     pub(super) fn shorten(&mut self) {
         self.widths.clear();
         let (half, last) = (T::of(0.5), self.moves.len() - 1);
