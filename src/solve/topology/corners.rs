@@ -411,8 +411,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
             let sum = both.fold(T::zero(), |sum, (&rise, &[_, weight])| sum + weight * rise);
             Ok(sum * root / due)
         };
-        // No wall is steeper: d is at least as large; and no place within rounding of x is told from
-        // the corner.
+        // No wall is steeper, so d is at least as large. A place within the rounding of x cannot be
+        // told from the corner.
         let rounding = (T::of(8.0) * T::epsilon() * z.abs()).sqrt();
         let mut low = (due / (steepest + steepest)).max(rounding).min(most);
         let mut high = low;
