@@ -546,7 +546,8 @@ class Solution:
     def is_steep(self) -> bool:
         """True if a slope exceeds 0.3, too much for half-planes: check the units.
 
-        It is that of the gap at the limits of the contacts, or the steepest of either surface.
+        It is that of the gap at the limits of the contacts, or the steepest of either surface, but
+        for a thousandth of each contact at either limit, where bodies may bear on the edge of a wall.
         """
         return self._found.is_steep
 
