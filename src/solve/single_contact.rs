@@ -111,8 +111,9 @@ impl<T: Real> Single<'_, '_, T> {
     /// Finds the contact by Newton's method; `None` if it goes astray.
     fn by_newton(&mut self, last: Option<Interval<T>>) -> Fallible<T, Option<Converged<T>>> {
         if let Some(last) = last {
-            // Samples of the last load serve for the next one. Around the contact of another scene
-            // an error means nothing, unless it is that the bodies bear less.
+            // Samples of the last load serve for the next one, but not for a contact elsewhere,
+            // which cells have found. Around the contact of another scene an error means nothing,
+            // unless it is that the bodies bear less.
             let known = |result| match result {
                 Err(
                     error @ ContactError::Solve(
@@ -121,7 +122,8 @@ impl<T: Real> Single<'_, '_, T> {
                 ) => Err(error),
                 result => Ok(result.unwrap_or(None)),
             };
-            if let Some(covered) = self.integrator.sampled_interval() {
+            let is_near = |on: &Interval<T>| on.left < last.right && on.right > last.left;
+            if let Some(covered) = self.integrator.sampled_interval().filter(is_near) {
                 let wide = |converged: &Converged<T>| {
                     converged.on.half_width() >= T::of(0.3) * covered.half_width()
                 };

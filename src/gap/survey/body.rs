@@ -211,7 +211,9 @@ impl<T: Real> Body<T> {
         let margin = T::of(WINDOW_MARGIN) * (right - left) + T::of(LEAST_MARGIN) * (end - start);
         let cuts = [(left - margin).max(start), (right + margin).min(end)];
         let is_short = cuts[1] - cuts[0] <= T::of(LARGEST_WINDOW) * (end - start);
-        (series.doubt.is_finite() && is_short).then_some(cuts)
+        // The ends of a short panel, by the series next to it, may be the wrong way round by its
+        // own.
+        (series.doubt.is_finite() && is_short && cuts[0] < cuts[1]).then_some(cuts)
     }
 
     /// Replaces a panel by its parts: a window, given by its ends as t, and the rest on either side
