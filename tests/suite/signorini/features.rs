@@ -211,7 +211,7 @@ fn no_narrow_feature_in_or_beside_a_contact_is_missed() {
     none_is_missed(known.chain(random), false);
 }
 
-/// Nor is one anywhere on the bodies, if its length is asked for. Of 2 000 five are refused as yet.
+/// Nor is one anywhere on the bodies, if its length is asked for.
 #[test]
 fn no_feature_anywhere_is_missed_at_its_resolution() {
     let scene = |seed| (format!("{seed}"), Scene::anywhere(&mut Dice::new(seed)));
