@@ -63,10 +63,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         self.resolve(found)?;
         let gap = &self.contact.gap.tilted(found.tilt);
-        // The contact of a convex gap is found by the first search, for one: after a fault the gap
-        // is none, whatever the survey has seen.
-        let is_first = self.is_of_one();
-        let is_proved = is_first && (self.is_convex() || self.touches_once(gap, found)?);
+        // A search for one contact finds that of a convex gap: after a revised set the gap is not
+        // known to be convex, whatever the survey has seen.
+        let is_proved = self.is_of_one() && (self.is_convex() || self.touches_once(gap, found)?);
         if is_proved && !self.corrects_survey()? {
             return Ok(lifts_off);
         }
