@@ -268,3 +268,31 @@ fn lands_beside_walls_of_a_thousandth_of_the_body_touch() {
     println!("{refused} refused");
     assert!(refused <= scenes / 20, "{refused} refused");
 }
+
+/// A piece whose slope bends away at both of its ends misses as much in each half: no noise. The
+/// land between two walls, each cut at three of its widths, had an infinite pressure.
+#[test]
+fn a_piece_that_bends_away_at_both_ends_is_no_noise() {
+    let (depth, wall, walls) = (1e-6, 1e-5, [-0.03247199604282393, 0.030528003957176073]);
+    let at = move |x: f64| {
+        let [one, other] = walls.map(|at| ((x - at) / wall).tanh());
+        CurvePoint {
+            x,
+            y: x * x / 20.0 - 0.5 * depth * (one - other),
+            dx: 1.0,
+            dy: x / 10.0 - 0.5 * depth / wall * (other * other - one * one),
+        }
+    };
+    let peak = |shares: &[f64]| {
+        let cuts = walls.map(|at| shares.iter().map(|share| at + share * wall).collect::<Vec<_>>());
+        let ends = [&[-1.0], &cuts.concat()[..], &[1.0]].concat();
+        let piece = |k: &[f64]| Curve::new([k[0], k[1]], at);
+        let body = Piecewise::new(ends.windows(2).map(piece).collect()).unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115_384.6);
+        contact.solve(Control::Load(100.0)).unwrap().peak().unwrap().pressure
+    };
+    // Beyond 30 widths the walls are level.
+    let known = peak(&[-30.0, -10.0, -3.0, -1.0, 0.0, 1.0, 3.0, 10.0, 30.0]);
+    let found = peak(&[-3.0, -1.0, 0.0, 1.0, 3.0]);
+    assert!((found / known - 1.0).abs() < 1e-8, "{found} for {known}");
+}

@@ -12,7 +12,8 @@ const NOISE: f64 = 1.0 / 1024.0;
 const MAX_REMAINING: f64 = 0.01;
 
 /// Largest share of its uncertainty that halving leaves of a panel that resolves the body: a series
-/// of eight terms leaves 1/256 or less.
+/// of eight terms leaves 1/256 or less. Likewise the share that a panel without a wall has of that
+/// of the next one with it.
 pub(super) const MAX_HALVING_RATIO: f64 = 0.125;
 
 /// Point of a piece that a series has missed.
