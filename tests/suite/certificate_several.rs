@@ -3,6 +3,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{Profile, graph, on_flat, quartic};
+use crate::narrow_features::dented;
 use crate::several_quantities::{Scene, all_scenes};
 use crate::several_solved::forms;
 
@@ -274,4 +275,23 @@ fn a_roof_between_two_contacts() {
         assert!(solution.gap_at(0.0).unwrap() > 0.0);
         assert_eq!(solution.certify().unwrap().gap, None, "{roof} {bend} {load}");
     }
+}
+
+/// A limit on the shoulder of a wall that is shorter than its cell: the singularity of the slope in
+/// that cell is as close to the limit as the wall, and the gap was followed by steps a hundred times
+/// as long. Limits by Gauss's rules of 220 nodes with 30 digits.
+#[test]
+fn a_limit_on_a_shoulder_is_balanced() {
+    let (x0, width) = (0.0734844, 0.0708670);
+    let walls = [-0.5, 0.5].map(|end| x0 + end * width);
+    let body = Curve::new([-1.0, 1.0], dented(-0.00933426, 0.00128238, walls));
+    let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(210e3 / 0.91 / 2.0);
+    let solution = contact.solve(Control::Load(740.6147)).unwrap();
+    let limits = solution.intervals().iter().flat_map(|on| [on.left, on.right]);
+    let known =
+        [-0.199062673926183, -0.13887136973739578, 0.03961075110536314, 0.10727250945261517];
+    for (found, known) in limits.zip(known) {
+        assert!((found - known).abs() < 1e-14, "{found} for {known}");
+    }
+    solution.certify().unwrap();
 }

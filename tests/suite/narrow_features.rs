@@ -179,6 +179,19 @@ fn fine_waves_take_a_time_like_their_number() {
     assert!(many < 60.0 * few, "{many} s, {few} s");
 }
 
+/// Returns a roller of radius 10 that is lifted by `depth` between two walls.
+pub fn dented(depth: f64, wall: f64, walls: [f64; 2]) -> impl Fn(f64) -> CurvePoint<f64> + Copy {
+    move |x: f64| {
+        let [one, other] = walls.map(|at| ((x - at) / wall).tanh());
+        CurvePoint {
+            x,
+            y: x * x / 20.0 + 0.5 * depth * (one - other),
+            dx: 1.0,
+            dy: x / 10.0 + 0.5 * depth / wall * (other * other - one * one),
+        }
+    }
+}
+
 /// A groove or a raised land whose walls are so narrow that no slope was seen on them: heights show
 /// it, those at the outermost nodes of neighbouring panels among them. In 50 of 60 places a groove
 /// of a tenth to a third of the contact was missed, and 16 of 240 lands. Walls that are steeper
@@ -194,15 +207,7 @@ fn lands_and_grooves_between_walls_that_no_node_meets_are_seen_by_their_heights(
         let depth = [1e-3, 1e-5, -1e-5, -1e-6][i / 3 % 4];
         let from = -0.105 + (0.21 - width) * dice.uniform();
         let walls = [from, from + width];
-        let at = move |x: f64| {
-            let [one, other] = walls.map(|at| ((x - at) / wall).tanh());
-            CurvePoint {
-                x,
-                y: x * x / 20.0 + 0.5 * depth * (one - other),
-                dx: 1.0,
-                dy: x / 10.0 + 0.5 * depth / wall * (other * other - one * one),
-            }
-        };
+        let at = dented(depth, wall, walls);
         let peak = |cuts: &[f64]| {
             let ends = [&[-1.0], cuts, &[1.0]].concat();
             let piece = |k: &[f64]| Curve::new([k[0], k[1]], at);
@@ -243,16 +248,8 @@ fn lands_beside_walls_of_a_thousandth_of_the_body_touch() {
     for i in 0..scenes {
         let (wall, depth) = ([1e-4, 3e-5][i % 2], dice.within(5e-3, 2e-2));
         let (width, place) = (dice.within(0.08, 0.12), dice.within(-0.04, 0.04));
-        let at = move |x: f64| {
-            let [one, other] = [-0.5, 0.5].map(|end| ((x - place - end * width) / wall).tanh());
-            CurvePoint {
-                x,
-                y: x * x / 20.0 + 0.5 * depth * (one - other),
-                dx: 1.0,
-                dy: x / 10.0 + 0.5 * depth / wall * (other * other - one * one),
-            }
-        };
-        let body = Curve::new([-1.0, 1.0], at);
+        let walls = [-0.5, 0.5].map(|end| place + end * width);
+        let body = Curve::new([-1.0, 1.0], dented(depth, wall, walls));
         let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115_384.6);
         let load = dice.within(60.0, 160.0);
         let Ok(solution) = contact.solve(Control::Load(load)) else {
@@ -273,16 +270,8 @@ fn lands_beside_walls_of_a_thousandth_of_the_body_touch() {
 /// land between two walls, each cut at three of its widths, had an infinite pressure.
 #[test]
 fn a_piece_that_bends_away_at_both_ends_is_no_noise() {
-    let (depth, wall, walls) = (1e-6, 1e-5, [-0.03247199604282393, 0.030528003957176073]);
-    let at = move |x: f64| {
-        let [one, other] = walls.map(|at| ((x - at) / wall).tanh());
-        CurvePoint {
-            x,
-            y: x * x / 20.0 - 0.5 * depth * (one - other),
-            dx: 1.0,
-            dy: x / 10.0 - 0.5 * depth / wall * (other * other - one * one),
-        }
-    };
+    let (depth, wall, walls) = (-1e-6, 1e-5, [-0.03247199604282393, 0.030528003957176073]);
+    let at = dented(depth, wall, walls);
     let peak = |shares: &[f64]| {
         let cuts = walls.map(|at| shares.iter().map(|share| at + share * wall).collect::<Vec<_>>());
         let ends = [&[-1.0], &cuts.concat()[..], &[1.0]].concat();

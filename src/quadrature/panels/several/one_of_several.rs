@@ -250,34 +250,34 @@ impl<T: Real> OneOfSeveral<T> {
         (self.on, sum)
     }
 
-    /// Returns the length of the last piece of the bodies in the contact, at one end, if the gap is
-    /// much steeper there than further inside: the limit lies next to a corner.
+    /// Returns how far the nearest singularity of the slope may lie from a limit, if the gap is much
+    /// steeper there than further inside: the limit lies next to a corner, or on a shoulder.
     pub fn wall(&self, side: Side) -> Option<T> {
         let (on, panels) = (self.on, within(&self.panel_set.panels, self.on));
         let (last, others) = match side {
             Side::Left => panels.split_first()?,
             Side::Right => panels.split_last()?,
         };
-        let end = |panel: &Panel<T>| panel.x[usize::from(side == Side::Left)];
-        let wall = (on[side] - end(last)).abs();
-        let half_width = on.half_width();
-        if wall >= T::of(MAX_WALL) * half_width {
-            return None;
-        }
+        let [inner, outer] = [Side::Left, Side::Right].map(|s| usize::from(s == side));
+        let away = |x: T| (on[side] - x).abs();
+        // A series of n terms ends at rounding: its ellipse grows as the n-th root of that.
+        let rho = T::epsilon().powf(-T::one() / T::count(last.length));
+        let beyond = T::of(0.25) * (last.x[1] - last.x[0]) * (rho + rho.recip() - T::of(2.0));
+        let (wall, half_width) = (away(last.x[inner]).min(beyond), on.half_width());
         // A limit that is held belongs to the panel inside, not to the one beyond the corner.
         let far = if side == Side::Left { panels.last() } else { panels.first() }?;
         let middle = self.panel_set.slope(on.centre())?;
         let at_end = last.value(on[side]);
         let all = (at_end - middle).abs().max((at_end - far.value(on[side.other()])).abs());
+        let inside = on[side] + wall * if side == Side::Left { T::one() } else { -T::one() };
         let inward: &mut dyn Iterator<Item = &Panel<T>> = match side {
             Side::Left => &mut others.iter(),
             Side::Right => &mut others.iter().rev(),
         };
-        let other_end = |panel: &Panel<T>| panel.x[usize::from(side == Side::Right)];
-        inward
-            .map(|panel| (on[side] - other_end(panel), at_end - panel.value(other_end(panel))))
-            .take_while(|(away, _)| away.abs() < T::of(MAX_WALL) * half_width)
-            .any(|(away, rise)| rise.abs() * T::of(MAX_WALL) * half_width > away.abs() * all)
+        std::iter::once((wall, last.value(inside)))
+            .chain(inward.map(|panel| (away(panel.x[outer]), panel.value(panel.x[outer]))))
+            .take_while(|&(away, _)| away < T::of(MAX_WALL) * half_width)
+            .any(|(away, value)| (at_end - value).abs() * T::of(MAX_WALL) * half_width > away * all)
             .then_some(wall)
             .filter(|&wall| wall > T::zero())
     }
