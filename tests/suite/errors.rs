@@ -122,6 +122,25 @@ fn bodies_that_do_not_meet() {
     assert!(matches!(beyond, ContactError::Solve(SolveError::NoFirstContact { .. })), "{beyond}");
 }
 
+/// Heights that underflow are all alike, but the bodies are not parallel.
+#[test]
+fn heights_below_the_smallest_number() {
+    for (end, radius) in [(1e-308, 1.0), (1e-310, 1.0), (1e-200, 1e-200), (1.0, 1e308)] {
+        let body = graph(-end, end, move |x| [x * x / (2.0 * radius), x / radius]);
+        let error = error(&Flat, &*body, 1.0);
+        let ContactError::Solve(SolveError::NoFirstContact { slope, .. }) = error else {
+            panic!("{end} {radius}: {error}")
+        };
+        assert!(slope[0] < 0.0 && slope[1] > 0.0, "{slope:?}");
+        assert!(error.to_string().contains("below the smallest normal number"), "{error}");
+    }
+    // Flats are parallel, however small their heights.
+    for height in [0.0, 1e-308, 1e-320] {
+        let error = error(&Flat, &*graph(-1.0, 1.0, move |_| [height, 0.0]), 1.0);
+        assert!(error.to_string().contains("parallel"), "{height}: {error}");
+    }
+}
+
 #[test]
 fn a_spent_budget_carries_the_best_limits() {
     let body = graph(-1.0, 1.0, |x| [x * x / 2.0 + x.powi(3) / 5.0, x + 0.6 * x * x]);

@@ -135,7 +135,11 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
         ),
         (
             ContactError::Solve(SolveError::NoFirstContact { x: [1.5, 2.5], slope: [0.0; 2] }),
-            &["parallel", "FreeUntil", "of too small numbers the unit"],
+            &["parallel", "FreeUntil", "like curves"],
+        ),
+        (
+            ContactError::Solve(SolveError::NoFirstContact { x: [1.5, 2.5], slope: [-3.5, 4.5] }),
+            &["-3.5 at x = 1.5", "below the smallest normal number", "units"],
         ),
         (
             ContactError::Solve(SolveError::DomainTooShort {
