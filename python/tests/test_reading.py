@@ -585,7 +585,19 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
         for i, x in enumerate(["-4,000.000", "-4 000.000", "-4'000.000", "-4.000,000", "−4.0*", "-4.0 um"])
     ),
     ("flag.csv", b"-4\t-3.5*\n-3\t1\n-2\t1\n", {}, {"line": 1}, "and '-3.5[*]' look like data"),
-    ("quoted.csv", b'x (mm),z (um),flag\n0.0,"-1,400.0",OK\n1.0,"-1,300.0",OK\n', {}, {}, "no line has two numbers"),
+    ("quoted.csv", b'x (mm),z (um),flag\n0.0,"-1,400.0",OK\n1.0,"-1,300.0",OK\n', {}, {"line": 2}, "no line has two numbers"),
+    *(
+        (f"grouped{i}.txt", f"{one}{by}0.5\n{one}{by}0.6\n".encode(), {}, {"line": 1}, f"{reason}; [\"'].*{one}[\"'] may be one number: take")
+        for i, (one, by, reason) in enumerate(
+            [("1 234.5", ";", "x and z"), ("1 234.5", "\t", "3 columns: .* or name"), ("1 234", " ", "or name"), ("12'345.6", ";", ""), ("1’234", ",", "")]
+        )
+    ),
+    *(
+        (f"with_units{i}.txt", f"1.5{gap}mm{by}0.2{gap}µm\n2.5{gap}mm{by}0.3{gap}µm\n".encode(), {}, {"line": 1}, f"; '1.5{gap}mm' may be a number with its")
+        for i, (gap, by) in enumerate([(" ", " "), (" ", ";"), (" ", "\t"), ("", ","), ("", " ")])
+    ),
+    ("points_with_units.txt", "x z\n1.5 mm 0.2 µm\n2.5 mm 0.3 µm\n".encode(), {}, {"line": 2}, "'1.5 mm' may be a number with its unit"),
+    ("two_commas.txt", b"1,0,0,5\n2,0,0,3\n", {}, {"line": 1}, "4 columns: give those of x and z, by number or name; '1,0' may be one"),
     *(
         (f"thousands{i}.csv", f"{heads}\n{rows}".encode(), given, {"line": line}, (f"{count} columns.*" if count else "a comma: ") + "take out separators of th")
         for i, (heads, rows, given, line, count) in enumerate(THOUSANDS)
