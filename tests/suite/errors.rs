@@ -5,11 +5,12 @@ use crate::common;
 
 use approx::assert_relative_eq;
 use common::{NanSafe, graph, on_flat, parabola};
+use linecontact::profile::{Parabola, Placed, Placement};
 use linecontact::search::{Brent, SearchError, StoppingCriteria};
 use linecontact::{
     Attempt, Base, Body, Contact, ContactError, Control, Curve, CurvePoint, Edge, EdgePressure,
     Flat, Foundation, InputError, Interval, Layer, Material, Midpoint, Outcome, ParametricProfile,
-    PlaneState, ProfileError, Reference, References, SolveError, Start,
+    Piecewise, PlaneState, ProfileError, Reference, References, SolveError, Start,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
@@ -436,6 +437,39 @@ fn a_step_of_the_heights() {
     let solution = Contact::new(&Flat, &*body).unwrap().solve(Control::Load(0.02)).unwrap();
     assert!(solution.cost().evaluations > 50);
     solution.certify().unwrap();
+}
+
+/// Pieces that do not meet are refused at their joint, by a solve or by a certificate, however
+/// large the tolerance that they were joined with.
+#[test]
+fn a_step_at_a_joint_is_named() {
+    let half = |from, to, by: f64| graph(from, to, move |x| [x * x / 2.0 + by, x]);
+    let direct = |from, to, by: f64| -> Box<dyn ParametricProfile<f64>> {
+        let placement = Placement::default().shifted(0.0, by);
+        Box::new(Placed::new(Parabola::new(1.0, [from, to]).unwrap(), placement).unwrap())
+    };
+    for at in [0.0, 0.1, 0.5, -0.5] {
+        for step in [1e-5, -1e-5, 1e-3, -1e-4] {
+            let curves: Vec<Box<dyn ParametricProfile<f64>>> =
+                vec![half(-1.0, at, 0.0), half(at, 1.0, step)];
+            for parts in [curves, vec![direct(-1.0, at, 0.0), direct(at, 1.0, step)]] {
+                let body = Piecewise::with_tolerance(parts, 0.01).unwrap();
+                let contact = Contact::new(&Flat, &body).unwrap();
+                let found = contact.solve(Control::Load(0.02));
+                let error = found.and_then(|found| found.certify().map(|_| ())).unwrap_err();
+                let ContactError::Input(InputError::InconsistentHeights {
+                    between,
+                    by_heights,
+                    by_slopes: 0.0,
+                }) = error
+                else {
+                    panic!("{step} at {at}: {error}")
+                };
+                assert_eq!(between, [at; 2], "{step}");
+                assert!((by_heights - step).abs() < 1e-15, "{step} at {at}: {error}");
+            }
+        }
+    }
 }
 
 /// Body whose slope by x disagrees with its points.

@@ -212,6 +212,14 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["x = 1.5 to 2.5", "3.5 by the heights", "4.5 by their slopes", "check_derivatives"],
         ),
         (
+            ContactError::Input(InputError::InconsistentHeights {
+                between: [1.5; 2],
+                by_heights: 3.5,
+                by_slopes: 0.0,
+            }),
+            &["at x = 1.5", "3.5 by the heights", "at a joint within its tolerance"],
+        ),
+        (
             ContactError::Input(InputError::NotConvex { between: [1.5, 2.5], slopes: [4.5, 3.5] }),
             &["from 4.5 to 3.5", "from x = 1.5 to 2.5", "Convexity::Unknown"],
         ),
