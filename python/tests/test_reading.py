@@ -166,10 +166,13 @@ def test_rows_that_are_no_points_are_told(tmp_path: Path) -> None:
         (f"{head}-5;46.2\n{table}\n", 2),
         (f"{head}12;46.2\n{table}\n", 3),
         ("x [mm];z [um];flag\n" + "\n".join(f"{row};ok" for row in rows) + "\n1.2;46.2;Mean\n", 14),
+        (f"{head}{table}\n0.55;46.2\n", 14),
     ]:
         with pytest.raises(lc.errors.MeasuredFileError) as raised:
             lc.read_profile(written(tmp_path, "summary.csv", text), columns=(1, 2))
         assert raised.value.line == line, text
+    # The last one was that of a mean, which facing would keep.
+    assert "leave the line out if it is a count or a mean" in str(raised.value) and "facing" not in str(raised.value)
     # Pages of a table are its points.
     pages = "\n\n".join("\n".join(rows[i : i + 4]) for i in (0, 4, 8))
     assert len(lc.read_profile(written(tmp_path, "pages.csv", f"{head}{pages}\n")).points) == 12
@@ -237,7 +240,7 @@ def test_columns_that_no_header_names(tmp_path: Path) -> None:
 def test_columns_are_taken_as_they_are_named(tmp_path: Path) -> None:
     turned = lc.read_profile(written(tmp_path, "turned.csv", "z [um];x [mm]\n0;1\n1;2\n4;3\n"))
     np.testing.assert_allclose(turned.points, [[1.0, 0.0], [2.0, 1e-3], [3.0, 4e-3]])
-    for heads in ["Height;Position", "Depth [um];X Position [mm]", "z (um);Lateral (mm)", "Amplitude;Distance", "z;X-Pos."]:
+    for heads in ["Höhe;Weg", "Profilhöhe;Messweg", "z-Wert;x-Wert", "Height;Position", "Depth [um];X Position [mm]", "z (um);Lateral (mm)", "Amplitude;Distance", "z;X-Pos."]:
         turned = lc.read_profile(written(tmp_path, "turned.csv", f"{heads}\n0;1\n1;2\n4;3\n"))
         assert turned.points[:, 0].tolist() == [1.0, 2.0, 3.0], heads
     for heads in ["Position;Height", "x;Position", "Length;Depth", "Distance;x"]:

@@ -54,7 +54,7 @@ _ALONG = re.compile(
     r"x|(?:x[-_]?)?(?:pos(?:ition)?|dist(?:ance)?|length|weg|strecke|l(?:ä|ae)nge|abstand|way|path)\.?(?:[-_]?x)?|lateral|abs[cz]iss[ae]"
     r"|travers?e?|travel"
 )
-_ACROSS = re.compile(r"(?:z[-_]?)?(?:h(?:ö|oe|o)he|height|z)(?:[-_]?z)?")
+_ACROSS = re.compile(r"(?:profil|z[-_]?)?(?:h(?:ö|oe|o)hen?|height|z)(?:[-_]?(?:z|wert|value))?")
 # Names of heights into the material.
 _DEPTH = re.compile(r"(?:z[-_]?)?(?:tiefe|depth)(?:[-_]?z)?")
 # Words of a row that is none of the points.
@@ -243,7 +243,8 @@ def read_profile(
     if (back := np.flatnonzero(turn * np.diff(x) <= 0.0)).size:
         there, here = x[back[0] : back[0] + 2]
         reason = f"x = {here:g} after {there:g}: x must rise throughout, or fall throughout{hint}"
-        remedy = "facing='up' keeps what is seen from above"
+        is_last = len(x) > 4 and back[0] == len(x) - 2
+        remedy = "leave the line out if it is a count or a mean" if is_last else "facing='up' keeps what is seen from above"
         raise _fault(name, lines, int(places[back[0] + 1]), f"{reason}; {remedy}")
     for end, where, beside, other in ((-1, "after", -2, 0), (0, "before", 1, -1)):
         if abs(x[end] - x[beside]) > 2.0 * abs(x[beside] - x[other]) and len(x) > 4:
