@@ -482,9 +482,9 @@ def _first_row(name: str, lines: Sequence[str]) -> tuple[int, str | None, int]:
                 wordy.append((at, delimiter, len(cells)))
     if wordy or passed:
         return (wordy or passed)[0]
-    single = (at for at, line in enumerate(lines, 1) if _LIKE_A_NUMBER.match(line.strip()))
-    doubt = _doubt([[lines[at - 1]]], None) if (at := next(single, None)) else ""
-    raise MeasuredFileError(name, f"no line has two numbers: a profile has columns of x and z{doubt}", at)
+    single = next((at for at, line in enumerate(lines, 1) if _LIKE_A_NUMBER.match(line.strip())), None)
+    doubt = _doubt([[lines[single - 1]]], None) if single else ""
+    raise MeasuredFileError(name, f"no line has two numbers: a profile has columns of x and z{doubt}", single)
 
 
 def _heads(header: Sequence[str], delimiter: str | None, width: int) -> list[_Head]:
