@@ -441,8 +441,8 @@ impl<'b, T: Real> Gap<'b, T> {
         self.breakpoints(on).enumerate().filter(telling).map(|(_, breakpoint)| breakpoint)
     }
 
-    /// Returns the jump of the slope at a breakpoint, from the known ends of the pieces, the size of
-    /// the slope there, and the step of the height, which the tolerance of a joint may let pass.
+    /// Returns the jump of the slope at a breakpoint, from the known ends of the pieces, the size
+    /// of the slope, and the step of the height, which the tolerance of a joint may let pass.
     pub(crate) fn jump(&self, breakpoint: T) -> [T; 3] {
         let [mut jump, mut size, mut step] = [T::zero(); 3];
         for (body, sign) in [(Body::Lower, -T::one()), (Body::Upper, T::one())] {

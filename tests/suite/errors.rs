@@ -595,7 +595,7 @@ fn a_roller_in_a_groove_of_its_radius_touches_all_along() {
 }
 
 /// A solve looks at the watching function while it learns narrow features, too: 1 170 heights from
-/// look to look, where it were 3 439, and 48 443 at twice as many waves, which took seconds.
+/// look to look, where they were 3 439, and 48 443 at twice as many waves, which took seconds.
 #[test]
 fn narrow_features_are_learnt_under_watch() {
     let (height, waves) = (6e-6, 500.0);
