@@ -435,25 +435,26 @@ impl<'b, T: Real> Gap<'b, T> {
     ) -> impl Iterator<Item = T> {
         let stride = 1 + self.breakpoints(on).count() / most;
         let telling = move |&(i, breakpoint): &(usize, T)| {
-            let [jump, size] = self.jump(breakpoint);
+            let [jump, size, _] = self.jump(breakpoint);
             i % stride == 0 || sign * jump > T::epsilon().sqrt() * size || !size.is_finite()
         };
         self.breakpoints(on).enumerate().filter(telling).map(|(_, breakpoint)| breakpoint)
     }
 
-    /// Returns the jump of the slope at a breakpoint, from the known ends of the pieces, and the
-    /// size of the slope there.
-    pub(crate) fn jump(&self, breakpoint: T) -> [T; 2] {
-        let [mut jump, mut size] = [T::zero(); 2];
+    /// Returns the jump of the slope at a breakpoint, from the known ends of the pieces, the size
+    /// of the slope, and the step of the height, which the tolerance of a joint may let pass.
+    pub(crate) fn jump(&self, breakpoint: T) -> [T; 3] {
+        let [mut jump, mut size, mut step] = [T::zero(); 3];
         for (body, sign) in [(Body::Lower, -T::one()), (Body::Upper, T::one())] {
             if let Some([left, right]) = self.bodies[body as usize].pieces_at(breakpoint) {
+                step += sign * (right.ends[0].y - left.ends[1].y);
                 let [left, right] =
                     [(left, 1), (right, 0)].map(|(piece, end)| piece.end_slope(end, &mut 0));
                 jump += sign * (right - left);
                 size += left.abs() + right.abs();
             }
         }
-        [jump, size]
+        [jump, size, step]
     }
 
     /// Returns the smooth piece of a body to the left or right of `x`, and its number.

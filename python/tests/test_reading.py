@@ -166,10 +166,13 @@ def test_rows_that_are_no_points_are_told(tmp_path: Path) -> None:
         (f"{head}-5;46.2\n{table}\n", 2),
         (f"{head}12;46.2\n{table}\n", 3),
         ("x [mm];z [um];flag\n" + "\n".join(f"{row};ok" for row in rows) + "\n1.2;46.2;Mean\n", 14),
+        (f"{head}{table}\n0.55;46.2\n", 14),
     ]:
         with pytest.raises(lc.errors.MeasuredFileError) as raised:
             lc.read_profile(written(tmp_path, "summary.csv", text), columns=(1, 2))
         assert raised.value.line == line, text
+    # The last one was that of a mean, which facing would keep.
+    assert "leave the line out if it is a count or a mean" in str(raised.value) and "facing" not in str(raised.value)
     # Pages of a table are its points.
     pages = "\n\n".join("\n".join(rows[i : i + 4]) for i in (0, 4, 8))
     assert len(lc.read_profile(written(tmp_path, "pages.csv", f"{head}{pages}\n")).points) == 12
@@ -237,7 +240,7 @@ def test_columns_that_no_header_names(tmp_path: Path) -> None:
 def test_columns_are_taken_as_they_are_named(tmp_path: Path) -> None:
     turned = lc.read_profile(written(tmp_path, "turned.csv", "z [um];x [mm]\n0;1\n1;2\n4;3\n"))
     np.testing.assert_allclose(turned.points, [[1.0, 0.0], [2.0, 1e-3], [3.0, 4e-3]])
-    for heads in ["Height;Position", "Depth [um];X Position [mm]", "z (um);Lateral (mm)", "Amplitude;Distance", "z;X-Pos."]:
+    for heads in ["Höhe;Weg", "Profilhöhe;Messweg", "z-Wert;x-Wert", "Height;Position", "Depth [um];X Position [mm]", "z (um);Lateral (mm)", "Amplitude;Distance", "z;X-Pos."]:
         turned = lc.read_profile(written(tmp_path, "turned.csv", f"{heads}\n0;1\n1;2\n4;3\n"))
         assert turned.points[:, 0].tolist() == [1.0, 2.0, 3.0], heads
     for heads in ["Position;Height", "x;Position", "Length;Depth", "Distance;x"]:
@@ -585,7 +588,19 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
         for i, x in enumerate(["-4,000.000", "-4 000.000", "-4'000.000", "-4.000,000", "−4.0*", "-4.0 um"])
     ),
     ("flag.csv", b"-4\t-3.5*\n-3\t1\n-2\t1\n", {}, {"line": 1}, "and '-3.5[*]' look like data"),
-    ("quoted.csv", b'x (mm),z (um),flag\n0.0,"-1,400.0",OK\n1.0,"-1,300.0",OK\n', {}, {}, "no line has two numbers"),
+    ("quoted.csv", b'x (mm),z (um),flag\n0.0,"-1,400.0",OK\n1.0,"-1,300.0",OK\n', {}, {"line": 2}, "no line has two numbers"),
+    *(
+        (f"grouped{i}.txt", f"{one}{by}0.5\n{one}{by}0.6\n".encode(), {}, {"line": 1}, f"{reason}; [\"'].*{one}[\"'] may be one number: take")
+        for i, (one, by, reason) in enumerate(
+            [("1 234.5", ";", "x and z"), ("1 234.5", "\t", "3 columns: .* or name"), ("1 234", " ", "or name"), ("12'345.6", ";", ""), ("1’234", ",", "")]
+        )
+    ),
+    *(
+        (f"with_units{i}.txt", f"1.5{gap}mm{by}0.2{gap}µm\n2.5{gap}mm{by}0.3{gap}µm\n".encode(), {}, {"line": 1}, f"; '1.5{gap}mm' may be a number with its")
+        for i, (gap, by) in enumerate([(" ", " "), (" ", ";"), (" ", "\t"), ("", ","), ("", " ")])
+    ),
+    ("points_with_units.txt", "x z\n1.5 mm 0.2 µm\n2.5 mm 0.3 µm\n".encode(), {}, {"line": 2}, "'1.5 mm' may be a number with its unit"),
+    ("two_commas.txt", b"1,0,0,5\n2,0,0,3\n", {}, {"line": 1}, "4 columns: give those of x and z, by number or name; '1,0' may be one"),
     *(
         (f"thousands{i}.csv", f"{heads}\n{rows}".encode(), given, {"line": line}, (f"{count} columns.*" if count else "a comma: ") + "take out separators of th")
         for i, (heads, rows, given, line, count) in enumerate(THOUSANDS)

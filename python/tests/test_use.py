@@ -758,7 +758,7 @@ def test_bodies_that_repeat_are_drawn_all_over_the_picture() -> None:
         assert bodies_.get_title().splitlines()[0].endswith("], period 1")
         x, upper = (np.asarray(part, dtype=float) for part in bodies_.lines[0].get_data())
         np.testing.assert_allclose(upper, wave(x)[1], atol=1e-12)
-        assert x[0] < on.left - 0.1 and on.right + 0.1 < x[-1]
+        assert x[0] < on.left - 0.1 and on.right + 0.1 < x[-1] and math.isclose(x[-1] - x[0], 1.0)
         # The next contacts are not in the picture.
         assert on.right - 1.0 < x[0] and x[-1] < on.left + 1.0
         assert shear.get_xlim()[0] <= x[0] and x[-1] <= shear.get_xlim()[1]

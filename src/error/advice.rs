@@ -105,10 +105,11 @@ pub(super) fn hint(kappa_is_default: bool) -> &'static str {
 pub(super) fn how_to_touch<T: Real>([left, right]: [T; 2]) -> &'static str {
     if left.is_zero() && right.is_zero() {
         "these bodies are parallel, so that they touch all along: two flats need Edge::Fixed or FreeUntil at their \
-         corners; flip one of two like curves (Placement::flipped), or change its radius; of too small numbers the unit"
+         corners; flip one of two like curves (Placement::flipped), or change its radius"
+    } else if left < T::zero() && right > T::zero() {
+        "the heights are all alike, as below the smallest normal number: choose units in which they are nearer to 1"
     } else if left >= T::zero() && right <= T::zero() {
-        "these bodies bulge away from each other: flip one of them (Placement::flipped), swap them, or give \
-         a convex body a smaller radius than the hollow that it lies in"
+        "these bodies bulge away from each other: flip one (Placement::flipped), swap them, or give a hollow a larger radius"
     } else {
         "this gap leads down to an end of the bodies: widen their domains, or tilt one of them"
     }

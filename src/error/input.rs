@@ -179,13 +179,12 @@ pub enum InputError<T: Real> {
     /// other. Y has a step, or a derivative is wrong:
     /// [`check_derivatives`](crate::check_derivatives) tells for which body.
     #[error(
-        "from x = {} the gap rises by {by_heights} by the heights Y of the bodies, but by {by_slopes} by their \
-         slopes Y'/X': one of them has a Y that does not go with its Y', or a step in Y; check_derivatives tells which",
-        span(between[0], between[1]), by_heights = apart(*by_heights, &[*by_slopes]),
-        by_slopes = apart(*by_slopes, &[*by_heights])
+        "{} the gap rises by {by_heights} by the heights Y of the bodies, but by {by_slopes} by their slopes Y'/X': one \
+         has a Y that does not go with its Y' (check_derivatives tells which), or a step, as at a joint within its tolerance",
+        along(*between), by_heights = apart(*by_heights, &[*by_slopes]), by_slopes = apart(*by_slopes, &[*by_heights])
     )]
     InconsistentHeights {
-        /// Two abscissae.
+        /// Two abscissae, equal at a joint of pieces that do not meet.
         between: [T; 2],
         /// Rise of `Y₂ - Y₁` from the first abscissa to the second.
         by_heights: T,

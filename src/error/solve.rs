@@ -71,8 +71,7 @@ pub enum SolveError<T: Real> {
     /// The slope difference of the bodies nowhere goes from negative to positive, so that
     /// they do not open on both sides of a point of first contact.
     #[error(
-        "no point of first contact: the slope of the gap is {} at x = {} and {} at x = {}, but a gap falls on its left \
-         and rises on its right; {}",
+        "no point of first contact, where a gap begins to rise: its slope is {} at x = {} and {} at x = {}; {}",
         six(slope[0]), place(x[0]), six(slope[1]), place(x[1]), how_to_touch(*slope)
     )]
     NoFirstContact {

@@ -304,10 +304,10 @@ impl<T: Real> Survey<T> {
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
         let mut changes = false;
+        gap.check_watch(*cost, Interval { left: self.range[0], right: self.range[1] })?;
         for which in [Which::Lower, Which::Upper] {
             let (surface, body) = (&gap.bodies[which as usize], &mut self.bodies[which as usize]);
-            let half = T::of(0.5);
-            let is_marked = |panel: &Panel<T>| panel.may_gain(half * tolerance);
+            let is_marked = |panel: &Panel<T>| panel.may_gain(T::of(0.5) * tolerance);
             let (before, spans) = (cost.heights, wanted[which as usize]);
             let found = body.refine(surface, self.range, spans, is_marked, &mut cost.heights);
             self.spent += cost.heights - before;

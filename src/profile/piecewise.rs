@@ -68,7 +68,8 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
     }
 
     /// Joins pieces as [`new`](Self::new) does, if they meet only to within `tolerance` times the
-    /// larger of their extent and their distance from 0, such as measured ones.
+    /// larger of their extent and their distance from 0, such as measured ones. A step of `Y` that
+    /// is let pass is taken for none; a certificate refuses it, as does a solve where it matters.
     ///
     /// # Errors
     /// As [`new`](Self::new).

@@ -149,7 +149,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let away = |corner: T| (corner - on[side]).abs();
             let is_near = |&corner: &T| away(corner) <= T::of(BESIDE) * on.half_width();
             let bulges = |&corner: &T| {
-                let [jump, size] = self.gap.jump(corner);
+                let [jump, size, _] = self.gap.jump(corner);
                 jump > T::epsilon().sqrt() * size
             };
             let Some(corner) = corner.filter(is_near).filter(bulges) else { continue };

@@ -289,11 +289,12 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     /// Refuses bodies that are parallel all along, to rounding: no free contact ends there.
     pub(super) fn check_parallel(&mut self) -> Fallible<T, ()> {
         let Contact { gap, edges, .. } = self.contact;
-        let (mut sampler, x, slope) = (Sampler::default(), gap.range(), [T::zero(); 2]);
+        let (mut sampler, x) = (Sampler::default(), gap.range());
         let may_be = *edges == Ends::both(Edge::Free) && !gap.is_repeated();
-        let is = may_be && self.look()?.is_parallel(gap, |x| sampler.height(gap, x).ok());
+        let height = |x| sampler.height(gap, x).unwrap_or(T::of(f64::NAN));
+        let slopes = if may_be { self.look()?.level_slopes(gap, height) } else { None };
         self.work.cost.heights += sampler.cost.evaluations;
-        if is { Err(SolveError::NoFirstContact { x, slope }.into()) } else { Ok(()) }
+        slopes.map_or(Ok(()), |slope| Err(SolveError::NoFirstContact { x, slope }.into()))
     }
 
     /// Tells whether the bodies turn until the load acts at a given place.

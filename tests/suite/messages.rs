@@ -135,7 +135,11 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
         ),
         (
             ContactError::Solve(SolveError::NoFirstContact { x: [1.5, 2.5], slope: [0.0; 2] }),
-            &["parallel", "FreeUntil", "of too small numbers the unit"],
+            &["parallel", "FreeUntil", "like curves"],
+        ),
+        (
+            ContactError::Solve(SolveError::NoFirstContact { x: [1.5, 2.5], slope: [-3.5, 4.5] }),
+            &["-3.5 at x = 1.5", "below the smallest normal number", "units"],
         ),
         (
             ContactError::Solve(SolveError::DomainTooShort {
@@ -206,6 +210,14 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
                 by_slopes: 4.5,
             }),
             &["x = 1.5 to 2.5", "3.5 by the heights", "4.5 by their slopes", "check_derivatives"],
+        ),
+        (
+            ContactError::Input(InputError::InconsistentHeights {
+                between: [1.5; 2],
+                by_heights: 3.5,
+                by_slopes: 0.0,
+            }),
+            &["at x = 1.5", "3.5 by the heights", "at a joint within its tolerance"],
         ),
         (
             ContactError::Input(InputError::NotConvex { between: [1.5, 2.5], slopes: [4.5, 3.5] }),

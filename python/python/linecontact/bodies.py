@@ -667,7 +667,8 @@ class Piecewise(Body):
         Bodies, from left to right.
     tolerance : float or None
         Largest mismatch of two ends, as a share of the larger of their extent and their distance
-        from 0. None: rounding.
+        from 0. None: rounding. A step that is let pass is refused by `certify`, and where it
+        matters by a solve.
 
     Examples
     --------

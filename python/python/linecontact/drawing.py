@@ -204,7 +204,7 @@ def _draw_points(axes: Axes, contact: Contact, up: float, tilt: float) -> None:
         points = measured(body)
         if points is not None:
             if (after := period(contact)) is not None:
-                # The picture is no wider than a period.
+                # The picture is as wide as a period.
                 points[:, 0] = left + np.mod(points[:, 0] - left, after)
             x, y = points[(points[:, 0] >= left) & (points[:, 0] <= right)].T
             axes.plot(x, y + rise + turn * x, ".", color=color, markersize=3, label="measured")
@@ -298,10 +298,8 @@ def plot(solution: Solution, units: Sequence[str], given: Figure | None, slip: P
     of_each: Sequence[tuple[Side | None, float]] = [("lower", np.inf)] if slip else bodies_below(contact)
     if solution.is_apart:
         return _plot_apart(solution, lengths, given)
-    beside = 2 * BESIDE * on.half_width
-    if period(contact) is not None:
-        # The next contacts, whose pressure is not drawn, are not shown.
-        beside = min(beside, covered(solution)[1] - on.right)
+    # Of bodies that repeat one period is shown: not the next contacts, whose pressure is not drawn.
+    beside = 2 * BESIDE * on.half_width if period(contact) is None else covered(solution)[1] - on.right
     x = np.linspace(on.left - beside, on.right + beside, 401)
     figure = _figure(given, 5.3 + 2.7 * len(of_each))
     bodies, pressure, *shears = figure.subplots(2 + len(of_each), 1, sharex=True)

@@ -408,7 +408,7 @@ class InconsistentHeightsError(InputError):
     Attributes
     ----------
     between : tuple[float, float]
-        Two abscissae.
+        Two abscissae, equal at a joint of pieces that do not meet.
     by_heights : float
         Rise of `Y₂ - Y₁` from the first abscissa to the second.
     by_slopes : float

@@ -44,6 +44,9 @@ _NO_NUMBER = re.compile(
 )
 # What begins like a number, whatever follows, but no date and no time.
 _LIKE_A_NUMBER = re.compile(r"(?!\d{1,4}([-./])\d{1,2}\1\d{2,4}|\d{1,2}:\d\d)[-+−]?[.,]?\d")
+# What may be one number with a separator of thousands, and a number with a word behind it.
+_GROUPED = re.compile(r"(?<![\d.,])\d{1,3}[\s'’]\d{3}(?!\d)(?:\.\d+)?")
+_WITH_WORD = re.compile(r"[\d.,]*\d\s*([^\W\d_]+)")
 # Exponents of Fortran, as in `1.0D-02`.
 _FORTRAN = re.compile(r"(?<=[\d.])[dD](?=[+-]?\d)")
 # Names of x and of heights in headers, as `_bare` makes them.
@@ -51,7 +54,7 @@ _ALONG = re.compile(
     r"x|(?:x[-_]?)?(?:pos(?:ition)?|dist(?:ance)?|length|weg|strecke|l(?:ä|ae)nge|abstand|way|path)\.?(?:[-_]?x)?|lateral|abs[cz]iss[ae]"
     r"|travers?e?|travel"
 )
-_ACROSS = re.compile(r"(?:z[-_]?)?(?:h(?:ö|oe|o)he|height|z)(?:[-_]?z)?")
+_ACROSS = re.compile(r"(?:profil|z[-_]?)?(?:h(?:ö|oe|o)hen?|height|z)(?:[-_]?(?:z|wert|value))?")
 # Names of heights into the material.
 _DEPTH = re.compile(r"(?:z[-_]?)?(?:tiefe|depth)(?:[-_]?z)?")
 # Words of a row that is none of the points.
@@ -240,7 +243,8 @@ def read_profile(
     if (back := np.flatnonzero(turn * np.diff(x) <= 0.0)).size:
         there, here = x[back[0] : back[0] + 2]
         reason = f"x = {here:g} after {there:g}: x must rise throughout, or fall throughout{hint}"
-        remedy = "facing='up' keeps what is seen from above"
+        is_last = len(x) > 4 and back[0] == len(x) - 2
+        remedy = "leave the line out if it is a count or a mean" if is_last else "facing='up' keeps what is seen from above"
         raise _fault(name, lines, int(places[back[0] + 1]), f"{reason}; {remedy}")
     for end, where, beside, other in ((-1, "after", -2, 0), (0, "before", 1, -1)):
         if abs(x[end] - x[beside]) > 2.0 * abs(x[beside] - x[other]) and len(x) > 4:
@@ -299,7 +303,7 @@ def _text(
     heads = _heads(lines[:first], delimiter, width)
     if (names := _names(heads, delimiter)) and len(names.cells) < width:
         reason = f"{width} columns, of which line {names.line} names {len(names.cells)}: take out separators of thousands, or name all"
-        raise MeasuredFileError(name, reason + _commas([_cells(lines[first], delimiter)], delimiter), first + 1)
+        raise MeasuredFileError(name, reason + _doubt([_cells(lines[first], delimiter)], delimiter), first + 1)
     x, z = _in_order(heads) if columns is None else (_numbered(name, heads, column) for column in columns)
     if min(x, z) < 1 or max(x, z) > width or x == z:
         raise MeasuredFileError(name, f"columns are {columns}: give two of 1 to {width}", first + 1)
@@ -318,9 +322,8 @@ def _text(
     steps = np.diff(points, axis=0)
     can_be_x = (1 + np.flatnonzero((steps > 0).all(axis=0) | (steps < 0).all(axis=0))).tolist() if len(steps) else []
     if columns is None and width > 2:
-        such = _columns_to_try(heads, width, can_be_x, _filled(table[0]))
-        reason = f"{width} columns: give those of x and z, by number or name, {such}"
-        raise MeasuredFileError(name, reason + _commas(table, delimiter), first + 1)
+        such = (not names and _doubt(table, delimiter)) or _columns_to_try(heads, width, can_be_x, _filled(table[0]))
+        raise MeasuredFileError(name, f"{width} columns: give those of x and z, by number or name{such}", first + 1)
     marks = set[str]()
     for cells, row, line in zip(table, numbers, places, strict=True):
         chosen = [cells[x - 1], cells[z - 1]]
@@ -364,7 +367,7 @@ def _table(
             raise MeasuredFileError(name, f"{found!r} is no point: put # in front of the line", line)
         if len(cells) < width or (len(cells) > width and not usual.issuperset(_filled(cells))):
             remedy = "; take out separators of thousands" if len(cells) > width else ""
-            remedy += _commas([cells for cells, _ in rows], delimiter)
+            remedy += _doubt([cells for cells, _ in rows], delimiter)
             if len(cells) < width and sum(line <= other for _, other in rows) <= _FOOTER:
                 remedy = "; put # in front of it if it is a footer, such as a count of points"
             reason = f"{_counted(len(cells), 'column')}: there are {width} in line {first + 1}"
@@ -381,10 +384,17 @@ def _stray(name: str, cells: Sequence[str], line: int, x: int, z: int) -> Measur
     return MeasuredFileError(name, f"{at!r} and {height!r} look like data, but this is no line of the table: {remedy}", line)
 
 
-def _commas(table: Sequence[list[str]], delimiter: str | None) -> str:
-    """Returns a remedy if the commas between columns may be those of decimals."""
-    may_be = delimiter == "," and not any("." in cell for cells in table for cell in cells)
-    return "; if these are decimal commas, separate the columns by semicolons or tabs" if may_be else ""
+def _doubt(table: Sequence[Sequence[str]], delimiter: str | None) -> str:
+    """Returns a remedy if numbers may have been taken apart: at decimal commas, before thousands or a unit."""
+    if delimiter == "," and not any("." in cell for cells in table for cell in cells):
+        one = ",".join(table[0][:2])
+        return f"; {one!r} may be one number; if these are decimal commas, separate the columns by semicolons or tabs"
+    row = " ".join(table[0])
+    if found := _GROUPED.search(row):
+        return f"; {found[0]!r} may be one number: take out separators of thousands"
+    if found := next((found for found in _WITH_WORD.finditer(row) if _symbol(found[1])), None):
+        return f"; {found[0]!r} may be a number with its unit: take out the units, or give the columns of numbers, and file_units"
+    return ""
 
 
 def _is_footer(body: Sequence[list[str]], behind: Sequence[list[str]], width: int) -> bool:
@@ -472,8 +482,9 @@ def _first_row(name: str, lines: Sequence[str]) -> tuple[int, str | None, int]:
                 wordy.append((at, delimiter, len(cells)))
     if wordy or passed:
         return (wordy or passed)[0]
-    single = (at for at, line in enumerate(lines, 1) if line.strip() and _number(line.strip()) is not None)
-    raise MeasuredFileError(name, "no line has two numbers: a profile has columns of x and z", next(single, None))
+    single = next((at for at, line in enumerate(lines, 1) if _LIKE_A_NUMBER.match(line.strip())), None)
+    doubt = _doubt([[lines[single - 1]]], None) if single else ""
+    raise MeasuredFileError(name, f"no line has two numbers: a profile has columns of x and z{doubt}", single)
 
 
 def _heads(header: Sequence[str], delimiter: str | None, width: int) -> list[_Head]:
@@ -536,11 +547,11 @@ def _columns_to_try(heads: Sequence[_Head], width: int, can_be_x: Sequence[int],
     for head in heads:
         with_units = [cell for cell in head.ways[0] if _unit_of(cell)[0]]
         if len(head.ways[0]) == width and len(with_units) > 1:
-            return f"such as columns={tuple(with_units[:2])}"
+            return f", such as columns={tuple(with_units[:2])}"
     if not can_be_x:
         reason = "none rises or falls throughout: x turns back (give facing, too), or this is a matrix of heights"
-        return f"such as columns=(1, 2); {reason}, in which no column is x"
-    return f"such as columns={(can_be_x[0], filled[-1 if can_be_x[0] < filled[-1] else 0])}"
+        return f", such as columns=(1, 2); {reason}, in which no column is x"
+    return f", such as columns={(can_be_x[0], filled[-1 if can_be_x[0] < filled[-1] else 0])}"
 
 
 def _symbol(word: str) -> str:

@@ -79,10 +79,11 @@ impl<T: Real> Survey<T> {
         self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body))
     }
 
-    /// Tells whether the gap is the same wherever either body was sampled, to the rounding of the
-    /// highest place, as a formula may have added terms of its size: as far as it is known, and by
-    /// its own heights.
-    pub fn is_parallel(&self, gap: &Gap<'_, T>, mut height: impl FnMut(T) -> Option<T>) -> bool {
+    /// Returns the slopes at both ends if the gap is the same wherever either body was sampled, to
+    /// the rounding of the highest place, as a formula may have added terms of its size: as far as
+    /// it is known, and by its own heights. They are zero, unless the heights are too small to have
+    /// a rounding.
+    pub fn level_slopes(&self, gap: &Gap<'_, T>, mut height: impl FnMut(T) -> T) -> Option<[T; 2]> {
         let nodes = &self.nodes;
         let [size, doubt] = nodes.iter().fold([T::zero(); 2], |[size, doubt], node| {
             [size.max(node.size), doubt.max(node.after)]
@@ -90,12 +91,11 @@ impl<T: Real> Survey<T> {
         let rounding = T::of(64.0) * T::epsilon() * size;
         let known = |node: &Node<T>| gap.turned(node.x, node.height);
         let may_be = |node| (known(node) - known(&nodes[0])).abs() <= rounding + doubt;
-        if !nodes.iter().all(may_be) {
-            return false;
-        }
+        nodes.iter().all(may_be).then_some(())?;
         let first = height(nodes[0].x);
-        let mut off = |x| Some((height(x)? - first?).abs());
-        nodes.iter().all(|node| off(node.x).is_some_and(|off| off <= rounding))
+        nodes.iter().all(|node| (height(node.x) - first).abs() <= rounding).then_some(())?;
+        let slope = |node: &Node<T>| if rounding.is_zero() { node.slopes[1] } else { T::zero() };
+        Some([&nodes[0], &nodes[nodes.len() - 1]].map(slope))
     }
 
     /// Returns the slope of the gap at x, of bodies that are not turned, as far as it is known; at

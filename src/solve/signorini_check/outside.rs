@@ -163,20 +163,20 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let [from, to] = [left, right].map(|x| self.gap.nearest(x));
         let Some(by_slopes) = self.panels.rise(from, to) else { return Ok(()) };
         let deformed = T::of(STEP) * self.found.load.abs() / self.kappa;
-        let compare = |[before, after]: [T; 2], doubt: T| {
-            let by_heights = after - before;
+        let rises = |[before, after]: [T; 2], doubt: T| {
             let (highest, open) = (before.abs().max(after.abs()), doubt + deformed);
-            Rises { between: [from, to], by_heights, by_slopes, highest, open }.compare()
+            Rises { between: [from, to], by_heights: after - before, by_slopes, highest, open }
         };
         let doubt = look.doubt_at(from) + look.doubt_at(to);
-        if compare([from, to].map(|x| look.height_as_described(x)), doubt).is_ok() {
+        if rises([from, to].map(|x| look.height_as_described(x)), doubt).compare().is_ok() {
             return Ok(());
         }
         let mut sampler = Sampler::default();
         let before = sampler.height_as_described(self.gap, from)?;
         let after = sampler.height_as_described(self.gap, to)?;
+        let found = rises([before, after], T::zero()).compare_beside_noise(self.gap, &mut sampler);
         cost.heights += sampler.cost.evaluations;
-        compare([before, after], T::zero())
+        found
     }
 
     /// Returns the height of the gap at a place, before the bodies are loaded.

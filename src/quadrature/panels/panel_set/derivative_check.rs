@@ -226,17 +226,22 @@ impl<T: Real> Rises<T> {
     }
 
     /// Refuses heights that contradict the slopes by more than their noise, measured at both places
-    /// after a contradiction.
+    /// after a contradiction. A joint between them with a step that is one by itself is named.
     pub fn compare_beside_noise(
         self,
         gap: &Gap<'_, T>,
         sampler: &mut Sampler<T>,
     ) -> Result<(), ContactError<T>> {
         let Err(error) = self.compare() else { return Ok(()) };
-        let mut open = self.open;
+        let ([left, right], mut known) = (self.between, self);
         for x in self.between {
-            open += sampler.noise_of_height(gap, x)?;
+            known.open += sampler.noise_of_height(gap, x)?;
         }
-        Self { open, ..self }.compare().map_err(|_| error)
+        // The height at a joint is that on its left.
+        for x in std::iter::once(left).chain(gap.breakpoints(Interval { left, right })) {
+            let by_heights = gap.jump(x)[2];
+            Self { between: [x; 2], by_heights, by_slopes: T::zero(), ..known }.compare()?;
+        }
+        known.compare().map_err(|_| error)
     }
 }
