@@ -278,8 +278,8 @@ fn a_roof_between_two_contacts() {
 }
 
 /// A limit on the shoulder of a wall that is shorter than its cell: the singularity of the slope in
-/// that cell is as close to the limit as the wall, and the gap was followed by steps a hundred times
-/// as long. Limits by Gauss's rules of 220 nodes with 30 digits.
+/// that cell is as close to the limit as the wall, and the gap was followed by steps a hundred
+/// times as long. Limits by Gauss's rules of 220 nodes with 30 digits.
 #[test]
 fn a_limit_on_a_shoulder_is_balanced() {
     let (x0, width) = (0.0734844, 0.0708670);

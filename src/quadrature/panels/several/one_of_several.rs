@@ -250,8 +250,8 @@ impl<T: Real> OneOfSeveral<T> {
         (self.on, sum)
     }
 
-    /// Returns how far the nearest singularity of the slope may lie from a limit, if the gap is much
-    /// steeper there than further inside: the limit lies next to a corner, or on a shoulder.
+    /// Returns how far the nearest singularity of the slope may lie from a limit, if the gap is
+    /// much steeper there than further inside: the limit lies next to a corner, or on a shoulder.
     pub fn wall(&self, side: Side) -> Option<T> {
         let (on, panels) = (self.on, within(&self.panel_set.panels, self.on));
         let (last, others) = match side {
