@@ -59,7 +59,8 @@ pub(crate) struct Survey<T> {
     before: Vec<Node<T>>,
     /// Buffer for the rates at which slopes rise between two points.
     rates: Vec<T>,
-    lowest: T,
+    /// Place of the lowest gap; its middle where it is a span.
+    pub lowest: T,
     /// Load, as F/κ, and the approximate half-width that it reaches around the lowest place.
     reach: Option<[T; 2]>,
     /// Stretch where the gap was last seen to be convex.

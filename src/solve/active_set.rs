@@ -77,6 +77,8 @@ pub(super) struct Scene<'s, T: Real> {
     pub start: &'s [Interval<T>],
     /// Regular kernel, if any.
     pub kernel: Option<&'s Kernel<'s, T>>,
+    /// Look whether the search is cancelled.
+    pub watch: &'s dyn Fn() -> Fallible<T, ()>,
 }
 
 /// Contacts, to some per cent of each width.
@@ -101,7 +103,7 @@ impl<T: Real> Coarse<T> {
 /// Reason why no contact is found.
 #[derive(Debug, PartialEq)]
 pub(super) enum NotFound<T: Real> {
-    /// Error of a height that cannot be computed.
+    /// Error of a height that cannot be computed, or of a search that is cancelled.
     Height(ContactError<T>),
     /// Height that is not finite.
     NotFinite { x: T, height: T },
@@ -183,13 +185,13 @@ impl<'s, T: Real> ActiveSet<'s, T> {
     fn settle(&mut self, scene: &Scene<'_, T>, height: Height<'_, T>) -> Result<(), NotFound<T>> {
         self.take_up(scene.start, height)?;
         for _ in 0..MAX_CUTS {
-            self.converge()?;
+            self.converge(scene)?;
             let (marks, intervals) = (self.marks(scene.known), self.intervals());
             if !self.cut(&marks, &intervals, height)? {
                 break;
             }
         }
-        if self.changed { self.converge() } else { Ok(()) }
+        if self.changed { self.converge(scene) } else { Ok(()) }
     }
 
     fn new(scene: &Scene<'s, T>, height: Height<'_, T>) -> Result<Self, NotFound<T>> {
@@ -430,12 +432,13 @@ impl<'s, T: Real> ActiveSet<'s, T> {
 
     /// Changes the set of loaded cells until none is in tension and none overlaps, except next to a
     /// run of enough cells.
-    fn converge(&mut self) -> Result<(), NotFound<T>> {
+    fn converge(&mut self, scene: &Scene<'_, T>) -> Result<(), NotFound<T>> {
         if self.changed {
             self.prepare();
         }
         let (mut least, mut in_vain) = (usize::MAX, 0);
         for _ in 0..MAX_CHANGES {
+            (scene.watch)().map_err(NotFound::Height)?;
             if !self.bears() {
                 self.rest();
             }

@@ -80,7 +80,7 @@ pub(crate) fn first_touch<T: Real>(
         workspace.look.resolve(gap, aside, &[], cost)?;
     }
     let look = workspace.look(gap, Asked::Load(aside), cost)?;
-    let (mut lowest, mut sampler) = (look.lowest(), Sampler::default());
+    let (mut lowest, mut sampler) = (look.lowest, Sampler::default());
     if !(ends.left..=ends.right).contains(&lowest) {
         // The body ends at a corner before.
         let mut places = look.heights(gap);

@@ -145,11 +145,6 @@ impl<T: Real> Survey<T> {
         self.nodes.iter().enumerate().flat_map(both).flatten()
     }
 
-    /// Returns the place of the lowest gap; its middle where it is a span.
-    pub fn lowest(&self) -> T {
-        self.lowest
-    }
-
     /// Tells whether the slope rises from point to point, and the slope of every chord lies between
     /// the slopes at its ends. The uncertainty of the panels and cancellation in formulas are
     /// allowed for up to a share of all slopes: a larger allowance would hide waves.

@@ -16,9 +16,8 @@ pub(super) struct Segment<T> {
 impl<T: Real> Segment<T> {
     /// Makes the cubic through two points `[x, y]` with given slopes.
     pub fn new([from, height]: [T; 2], [to, other]: [T; 2], slopes: [T; 2]) -> Self {
-        let width = to - from;
-        let chord = (other - height) / width;
-        let [first, second] = [chord - slopes[0], slopes[1] - chord];
+        let cubic = Self::exact([from, height], [to, other], slopes);
+        let [first, second] = cubic.bends;
         // With a bend of more than twice the other one the cubic would leave the triangle of the
         // tangents, and an end that is nearly upright, or a kink, would make it swing.
         let within = |bend: T, other: T| {
@@ -28,7 +27,7 @@ impl<T: Real> Segment<T> {
         };
         let bends = [within(first, second), within(second, first)];
         let usable = |bend: T| if bend.is_finite() { bend } else { T::zero() };
-        Self { width, height, chord, bends: bends.map(usable) }
+        Self { bends: bends.map(usable), ..cubic }
     }
 
     /// Makes the cubic whatever its bends, for a body that is known to be a cubic.

@@ -7,7 +7,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 fn scene(load: f64, range: [f64; 2]) -> Scene<'static, f64> {
     let cells = FIRST_CELLS;
     let kappa = FRAC_PI_2;
-    Scene { kappa, load, at: None, range, cells, known: &[], start: &[], kernel: None }
+    let watch = &|| Ok(());
+    Scene { kappa, load, at: None, range, cells, known: &[], start: &[], kernel: None, watch }
 }
 
 fn set<'s>(
@@ -26,7 +27,7 @@ fn find(scene: &Scene<'_, f64>, h: impl Fn(f64) -> f64) -> Result<Coarse<f64>, N
 fn even(scene: &Scene<'_, f64>, cells: usize, h: impl Fn(f64) -> f64) -> Coarse<f64> {
     let scene = Scene { cells, known: &[], start: &[], ..*scene };
     let mut set = ActiveSet::new(&scene, &mut |x| Ok(h(x))).unwrap();
-    set.converge().unwrap();
+    set.converge(&scene).unwrap();
     set.found()
 }
 
@@ -264,6 +265,7 @@ fn single_precision() {
             known: &[],
             start: &[],
             kernel: None,
+            watch: &|| Ok(()),
         };
         let found = active_set(&scene, &mut 0, &mut |x: f32| Ok(x * x / 2.0 + 3.0)).unwrap();
         let half = f64::from(4.0 * load / std::f32::consts::PI).sqrt();

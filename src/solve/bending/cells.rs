@@ -118,7 +118,9 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         }
         let cells = at_least(count.component(0)).max(FIRST_CELLS);
         let (known, start, kernel, mut work) = (&[][..], &[][..], Some(kernel), 0);
-        let scene = Scene { kappa, load, at, range, cells, known, start, kernel };
+        let (cost, [left, right]) = (*self.work.cost, range);
+        let watch = &|| gap.check_watch(cost, Interval { left, right });
+        let scene = Scene { kappa, load, at, range, cells, known, start, kernel, watch };
         let mut heights = Sampler::default();
         let mut height = |x: T| heights.height(gap, gap.nearest(x));
         let found = active_set(&scene, &mut work, &mut height);

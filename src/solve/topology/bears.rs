@@ -120,7 +120,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if self.turns() {
             return None;
         }
-        let lowest = self.look().ok()?.lowest();
+        let lowest = self.look().ok()?.lowest;
         Side::BOTH.into_iter().find(|&side| lowest == ends[side] && !at_corner[side])
     }
 

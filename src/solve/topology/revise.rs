@@ -252,22 +252,22 @@ impl<T: Real> Search<'_, '_, '_, T> {
         conditions: &Conditions<T>,
         cells: usize,
     ) -> Fallible<T, Coarse<T>> {
-        let (gap, ends) = (&self.contact.gap, self.contact.ends());
+        let (gap, Ends { left, right }) = (&self.contact.gap, self.contact.ends());
         let Work { workspace, cost, .. } = &mut *self.work;
         workspace.take(gap, cost)?;
         workspace.look.refine(gap, asked_by(conditions), T::of(MAX_CELL_UNCERTAINTY), cost)?;
         let Workspace { look, newton, cell_work, .. } = &mut **workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
-        let turned = look.heights(gap);
-        let range = [ends.left, ends.right];
+        let (turned, range) = (look.heights(gap), [left, right]);
         let (at, known, start) = (conditions.at(), &turned[..], &newton.on[..]);
-        let scene = Scene { kappa, load, at, range, cells, known, start, kernel: None };
+        let (watch, kernel) = (&|| gap.check_watch(**cost, Interval { left, right }), None);
+        let scene = Scene { kappa, load, at, range, cells, known, start, kernel, watch };
         let mut height = |x: T| Ok(gap.turned(x, look.height(gap, gap.nearest(x))));
         active_set(&scene, cell_work, &mut height).map_err(|error| match error {
             NotFound::Height(error) => error,
             _ => ContactError::Solve(SolveError::NoEquilibrium {
-                half_width: T::of(0.5) * (ends.right - ends.left),
-                near: look.lowest(),
+                half_width: T::of(0.5) * (right - left),
+                near: look.lowest,
             }),
         })
     }
