@@ -150,15 +150,13 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
     /// Returns the points of a series at the targets; `None` beyond its range, or where rounding
     /// counts.
     fn by_series(&self, guide: &Series<T>) -> Option<[CurveSample<T>; N]> {
-        let [from, to] = self.piece.x();
-        if self.targets[N - 1] - self.targets[0] < T::epsilon().sqrt() * (to - from) {
-            return None;
-        }
         let mut samples = [self.ends[0]; N];
         for (sample, &target) in samples.iter_mut().zip(self.targets) {
             *sample = guide.sample_near(target)?;
         }
-        Some(samples)
+        let rate = |at: &CurveSample<T>| (at.slope * at.dx).abs();
+        let known = samples.iter().fold(T::zero(), |most, at| most.max(rate(at)));
+        (known > guide.unknown_rate()).then_some(samples)
     }
 
     /// Replaces the known samples by samples near the targets.

@@ -563,3 +563,29 @@ fn a_half_width_is_what_was_given_however_far_the_start() {
         }
     }
 }
+
+/// A contact so small on its body that the slopes of a series over all of it are rounding there: a
+/// first estimate from them led nowhere.
+#[test]
+fn a_contact_below_the_rounding_of_the_series_of_a_body() {
+    let (c, s, level) = (3.436065390576562, 2.3107161276285645e-5, 1.4552917291534263e-13);
+    let upper = Curve::new([-2.2535, 2.1311], move |k: f64| {
+        let (x, dx) = (k.sinh(), k.cosh());
+        let y = c * (x + s).powi(4) / 4.0 - level * x;
+        CurvePoint { x, y, dx, dy: (c * (x + s).powi(3) - level) * dx }
+    });
+    let contact = Contact::new(&Flat, &upper).unwrap();
+    // F = (κ L/π) ∫ g cos θ dθ around 0.
+    let half_width: f64 = 2.9427571159239758e-5;
+    let load = contact.solve(Control::HalfWidth(half_width)).unwrap().load();
+    let moment = c * (1.5 * s * s * half_width + 0.375 * half_width.powi(3));
+    assert!(
+        (load / (half_width * moment) - 1.0).abs() < 1e-9,
+        "{load} for {}",
+        half_width * moment
+    );
+    let solution = contact.solve(Control::Load(load)).unwrap();
+    for limit in [solution.a(), solution.b()] {
+        assert!((limit / half_width - 1.0).abs() < 1e-9, "{limit}");
+    }
+}

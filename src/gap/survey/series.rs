@@ -191,6 +191,16 @@ impl<T: Real> Series<T> {
         least >= T::of(0.25) * most
     }
 
+    /// Returns the largest rate of Y by k that may be mere rounding: a first estimate needs two
+    /// digits.
+    pub fn unknown_rate(&self) -> T {
+        let rates =
+            self.points().iter().zip(&self.rates).map(|(row, by_x)| (row.slope / *by_x).abs());
+        let largest = rates.filter(|rate| rate.is_finite()).fold(T::zero(), T::max);
+        let by_k = T::of(2.0) / (self.k[1] - self.k[0]).abs();
+        T::of(100.0 * SERIES_ROUNDING) * T::epsilon() * largest * by_k
+    }
+
     /// Returns the points that it is made from, by rising x, and their places as t.
     pub(super) fn points(&self) -> &[BodyPoint<T>] {
         &self.points[..self.n]
