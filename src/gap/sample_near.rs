@@ -154,9 +154,8 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         for (sample, &target) in samples.iter_mut().zip(self.targets) {
             *sample = guide.sample_near(target)?;
         }
-        let rate = |at: &CurveSample<T>| (at.slope * at.dx).abs();
-        let known = samples.iter().fold(T::zero(), |most, at| most.max(rate(at)));
-        (known > guide.unknown_rate()).then_some(samples)
+        let unknown = guide.unknown_rate();
+        samples.iter().any(|at| (at.slope * at.dx).abs() > unknown).then_some(samples)
     }
 
     /// Replaces the known samples by samples near the targets.

@@ -74,7 +74,7 @@ pub(crate) struct Survey<T> {
     /// Spans outside contacts that have been sampled more closely.
     seen: Vec<probe::Stretch<T>>,
     /// Heaviest load that these spans serve, as F/κ, and the tilt.
-    resolved: Option<[T; 2]>,
+    pub resolved: Option<[T; 2]>,
     /// Buffers for spans to be refined of either body, and for spans that a load requires.
     marked: [Vec<[T; 2]>; 2],
     stretches: Vec<probe::Stretch<T>>,

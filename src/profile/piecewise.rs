@@ -92,16 +92,18 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
         if parts.is_empty() {
             return Err(PiecewiseError::NoPieces);
         }
-        for (breakpoint, pair) in scans.windows(2).enumerate() {
-            Scan::meet(breakpoint + 1, [&pair[0], &pair[1]], tolerance)?;
-        }
         let ends: Vec<_> = scans.iter().map(|scan| (scan.piece.k, scan.piece.ends)).collect();
         let mut convexity = parts[0].convexity();
         for (breakpoint, pair) in ends.windows(2).enumerate() {
+            let meet = |within: T| {
+                Scan::meet(breakpoint + 1, [&scans[breakpoint], &scans[breakpoint + 1]], within)
+            };
+            meet(tolerance)?;
             let [before, after] = [pair[0].1[1], pair[1].1[0]].map(|end| end.dy / end.dx);
-            // Slopes that are equal to rounding make no corner; 0/0 is unknown.
+            // Slopes that are equal to rounding make no corner; 0/0 is unknown, and so is a step.
             let size = T::of(64.0) * T::epsilon() * (before.abs() + after.abs());
             let change = match after - before {
+                _ if meet(T::of(JOINT_ROUNDING) * T::epsilon()).is_err() => Convexity::Unknown,
                 change if change.abs() <= size => Convexity::Straight,
                 change if change.abs() > size => Convexity::of_sign(change),
                 _ => Convexity::Unknown,

@@ -83,7 +83,6 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         work: &'s mut Work<'w, T>,
     ) -> Self {
         let samples = work.integrator.cost().samples;
-        let [earlier, met, lost] = [Vec::new(), Vec::new(), Vec::new()];
         Self {
             contact,
             conditions,
@@ -92,9 +91,9 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             has_valleys: false,
             samples,
             cells: FIRST_CELLS,
-            earlier,
-            met,
-            lost,
+            earlier: Vec::new(),
+            met: Vec::new(),
+            lost: Vec::new(),
             of_one: None,
             error: None,
             runs_out: None,

@@ -458,6 +458,9 @@ fn a_step_at_a_joint_is_named() {
                 let body = Piecewise::with_tolerance(parts, 0.01).unwrap();
                 let contact = Contact::new(&Flat, &body).unwrap();
                 let found = contact.solve(Control::Load(0.02));
+                // Within the contact, and large beside its deformation, in a solve, too.
+                let matters = at.abs() < 0.2 && step.abs() > 1e-4 * 1.5;
+                assert!(found.is_err() || !matters, "{step} at {at}");
                 let error = found.and_then(|found| found.certify().map(|_| ())).unwrap_err();
                 let ContactError::Input(InputError::InconsistentHeights {
                     between,

@@ -92,11 +92,6 @@ impl<T: Real> Survey<T> {
         self.resolved.is_some_and(|[most, tilt]| load <= most && same(tilt, gap.tilt()))
     }
 
-    /// Forgets the load under which narrow features were sought, as other features are required.
-    pub fn look_again(&mut self) {
-        self.resolved = None;
-    }
-
     /// Looks for narrow features that the load F/κ may press on outside the contacts, and refines
     /// panels that miss one.
     ///

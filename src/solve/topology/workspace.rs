@@ -87,7 +87,7 @@ impl<T: Real> Workspace<T> {
         if self.resolution != gap.resolution() {
             self.resolution = gap.resolution();
             self.passed.clear();
-            self.look.look_again();
+            self.look.resolved = None;
         }
     }
 

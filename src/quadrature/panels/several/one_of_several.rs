@@ -274,12 +274,12 @@ impl<T: Real> OneOfSeveral<T> {
             Side::Left => &mut others.iter(),
             Side::Right => &mut others.iter().rev(),
         };
-        std::iter::once((wall, last.value(inside)))
+        let near = T::of(MAX_WALL) * half_width;
+        let is_steep = std::iter::once((wall, last.value(inside)))
             .chain(inward.map(|panel| (away(panel.x[outer]), panel.value(panel.x[outer]))))
-            .take_while(|&(away, _)| away < T::of(MAX_WALL) * half_width)
-            .any(|(away, value)| (at_end - value).abs() * T::of(MAX_WALL) * half_width > away * all)
-            .then_some(wall)
-            .filter(|&wall| wall > T::zero())
+            .take_while(|&(away, _)| away < near)
+            .any(|(away, value)| (at_end - value).abs() * near > away * all);
+        (is_steep && wall > T::zero()).then_some(wall)
     }
 
     /// Returns V at one end of the contact, without its infinite part.
