@@ -197,8 +197,7 @@ impl<T: Real> Series<T> {
         let rates =
             self.points().iter().zip(&self.rates).map(|(row, by_x)| (row.slope / *by_x).abs());
         let largest = rates.filter(|rate| rate.is_finite()).fold(T::zero(), T::max);
-        let by_k = T::of(2.0) / (self.k[1] - self.k[0]).abs();
-        T::of(100.0 * SERIES_ROUNDING) * T::epsilon() * largest * by_k
+        T::of(200.0 * SERIES_ROUNDING) * T::epsilon() * largest / (self.k[1] - self.k[0]).abs()
     }
 
     /// Returns the points that it is made from, by rising x, and their places as t.
