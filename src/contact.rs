@@ -530,6 +530,12 @@ pub(crate) fn check_given<T: Real>(
     }
 }
 
+/// Refuses a place, moment or misalignment that is not finite.
+pub(crate) fn check_finite<T: Real>(quantity: &'static str, value: T) -> crate::Fallible<T, ()> {
+    let fault = || InputError::InvalidMoment { quantity, value }.into();
+    value.is_finite().then_some(()).ok_or_else(fault)
+}
+
 fn is_positive<T: Real>(value: T) -> bool {
     value > T::zero() && !is_subnormal(value)
 }

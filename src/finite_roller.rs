@@ -15,7 +15,7 @@
 //! F and M are the derivatives by δ and ψ of a convex function, for q rises with δ: load and moment
 //! determine approach and misalignment.
 
-use crate::contact::check_given;
+use crate::contact::{check_finite, check_given};
 use crate::gap::{Gap, Sampler, Shape};
 use crate::numerics::CompensatedSum;
 use crate::profile::finite;
@@ -210,9 +210,7 @@ impl<T: Real> FiniteRoller<T> {
             return self.under_load(load, T::zero());
         }
         check_given("load", load, load > T::zero(), "positive, or zero without a moment")?;
-        if !moment.is_finite() {
-            return Err(InputError::InvalidMoment { value: moment }.into());
-        }
+        check_finite("moment", moment)?;
         let at = moment / load;
         let ends = [0, self.slices.len() - 1].map(|i| self.slices[i][0]);
         if at < ends[0] || at > ends[1] {
@@ -282,9 +280,9 @@ impl<T: Real> FiniteRoller<T> {
     fn nearest(&self, misalignment: T) -> Result<T, ContactError<T>> {
         let distances = self.slices.iter().map(|[z, relief]| *relief - misalignment * *z);
         let nearest = distances.reduce(|least, distance| least.min(distance));
-        nearest
-            .filter(|nearest| nearest.is_finite() && misalignment.is_finite())
-            .ok_or_else(|| InputError::InvalidMoment { value: misalignment }.into())
+        nearest.filter(|nearest| nearest.is_finite() && misalignment.is_finite()).ok_or_else(|| {
+            InputError::InvalidMoment { quantity: "misalignment", value: misalignment }.into()
+        })
     }
 
     /// Returns the state at which the approach of the slice that touches first is `largest`; the

@@ -296,10 +296,7 @@ pub enum ProfileError<T: Real> {
         to: T,
     },
     /// The curve returned NaN or an infinity.
-    #[error(
-        "{quantity} is {value} at k = {k}: end the domain, or a piece, before this point",
-        value = six(*value), k = six(*k)
-    )]
+    #[error("{quantity} is {} at k = {}: end the domain, or a piece, before this point", six(*value), six(*k))]
     NotFinite {
         /// Name of the quantity: `X`, `Y`, `X'`, `Y'`, the slope `Y'/X'` or `slope_at(x)`.
         quantity: &'static str,

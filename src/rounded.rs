@@ -57,6 +57,11 @@ pub(crate) fn apart<T: Real>(value: T, others: &[T]) -> Rounded {
     Rounded(value, (DIGITS..ALL_DIGITS).find(told).unwrap_or(ALL_DIGITS))
 }
 
+/// Makes the ends of a flat, which has none, infinite.
+pub(crate) fn endless<T: Real>(x: T) -> T {
+    if (x * T::of(8.0)).is_finite() { x } else { x * T::of(f64::INFINITY) }
+}
+
 /// Range from one number to another.
 pub(crate) struct Span(Rounded, Rounded);
 

@@ -129,8 +129,9 @@ fn possible<'de, T: Real + Deserialize<'de>, D: Deserializer<'de>>(
 }
 
 /// Labels of the units that the numbers of a scene are in. They are printed, and convert nothing;
-/// an empty one is not printed. Files whose units are known and do not go together, such as GPa
-/// with mm and N/mm, are refused.
+/// an empty one is not printed. Files whose units are not known, are those of other quantities,
+/// such as kN for a load per unit length, or do not go together, such as GPa with mm and N/mm, are
+/// refused.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Units {
@@ -145,12 +146,19 @@ pub struct Units {
     pub load: String,
 }
 
-/// Sizes of units in m, N and Pa, to four digits; the micro sign and the Greek mu are different.
+/// Units, with their sizes in m and N to four digits, and their powers of length and of force.
 #[rustfmt::skip]
-const SIZES: [(&str, f64); 17] = [
-    ("m", 1e0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("\u{b5}m", 1e-6), ("\u{3bc}m", 1e-6), ("in", 2.54e-2),
-    ("N", 1e0), ("kN", 1e3), ("MN", 1e6), ("lbf", 4.448), ("Pa", 1e0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9),
-    ("psi", 6.895e3), ("ksi", 6.895e6),
+const UNITS: [(&str, f64, f64, f64); 12] = [
+    ("m", 1e0, 1.0, 0.0), ("in", 2.54e-2, 1.0, 0.0), ("ft", 3.048e-1, 1.0, 0.0), ("mil", 2.54e-5, 1.0, 0.0),
+    ("\u{e5}", 1e-10, 1.0, 0.0), ("N", 1e0, 0.0, 1.0), ("lbf", 4.448, 0.0, 1.0), ("kgf", 9.807, 0.0, 1.0),
+    ("Pa", 1e0, -2.0, 1.0), ("bar", 1e5, -2.0, 1.0), ("psi", 6.895e3, -2.0, 1.0), ("ksi", 6.895e6, -2.0, 1.0),
+];
+
+/// Prefixes of units; the micro sign and the Greek mu are different.
+#[rustfmt::skip]
+const PREFIXES: [(&str, f64); 11] = [
+    ("", 1e0), ("G", 1e9), ("M", 1e6), ("k", 1e3), ("da", 1e1), ("c", 1e-2), ("m", 1e-3), ("u", 1e-6),
+    ("\u{b5}", 1e-6), ("\u{3bc}", 1e-6), ("n", 1e-9),
 ];
 
 impl Units {
@@ -159,31 +167,47 @@ impl Units {
     }
 }
 
-/// Returns the size of a unit such as `N/mm²`, if it is known.
-fn size(label: &str) -> Option<f64> {
+/// Returns the logarithm of the size of a unit such as `N/mm²`, and its powers of length and of
+/// force, if it is known.
+fn size(label: &str) -> Option<[f64; 3]> {
     let one = |label: &str| {
         let root = label.trim().strip_suffix(['²', '2']);
         let name = root.map_or(label, |root| root.trim_end_matches('^')).trim();
-        let size = SIZES.iter().find(|one| one.0 == name)?.1;
-        Some(if root.is_some() { size * size } else { size })
+        let times = if root.is_some() { 2.0 } else { 1.0 };
+        UNITS.iter().find_map(|&(unit, size, length, force)| {
+            let prefix = name.strip_suffix(unit)?;
+            let (_, factor) = PREFIXES.iter().find(|one| one.0 == prefix)?;
+            Some([(factor * size).ln(), length, force].map(|power| times * power))
+        })
     };
-    match label.split_once('/') {
-        Some((of, per)) => Some(one(of)? / one(per)?),
-        None => one(label),
-    }
+    let Some((of, per)) = label.split_once('/') else { return one(label) };
+    let (of, per) = (one(of)?, one(per)?);
+    Some([0, 1, 2].map(|i| of[i] - per[i]))
 }
 
-/// Reads units, and refuses known ones whose product of pressure and length is another load.
+/// Reads units, and refuses those that are not known, or of another quantity, and those whose
+/// product of pressure and length is another load.
 fn agreeing<'de, D: Deserializer<'de>>(file: D) -> Result<Units, D::Error> {
     let units = Units::deserialize(file)?;
     let Units { length, pressure, load } = &units;
+    for (label, quantity, powers) in [
+        (length, "lengths", [1.0, 0.0]),
+        (pressure, "pressures", [-2.0, 1.0]),
+        (load, "loads per length, such as N/mm", [-1.0, 1.0]),
+    ] {
+        if !label.is_empty() && size(label).is_none_or(|size| size[1..] != powers) {
+            let known = UNITS.map(|one| one.0).join(", ");
+            let says =
+                format!("{label} is no unit of {quantity}: known are {known}, with prefixes");
+            return Err(de::Error::custom(says));
+        }
+    }
     // Other powers of ten, or inches among them, are off by far more.
-    let goes = |unit: &str| Some((size(unit)? * size(length)? / size(load)?).ln().abs() < 0.5);
+    let goes = |unit: &str| Some((size(unit)?[0] + size(length)?[0] - size(load)?[0]).abs() < 0.5);
     if goes(pressure) == Some(false) {
-        let mut others =
-            SIZES.iter().filter(|one| load.contains('/') && one.0.contains(['P', 's']));
-        let other = others.find(|one| goes(one.0) == Some(true));
-        let remedy = other.map(|one| format!(": give pressures in {}", one.0)).unwrap_or_default();
+        let mut others = ["Pa", "kPa", "MPa", "GPa", "psi", "ksi"].into_iter();
+        let other = others.find(|one| goes(one) == Some(true));
+        let remedy = other.map(|one| format!(": give pressures in {one}")).unwrap_or_default();
         let says = format!("{pressure} times {length} is no load per length in {load}{remedy}");
         return Err(de::Error::custom(says));
     }

@@ -306,9 +306,7 @@ pub enum SearchError<T: Real> {
         f_hi: T,
     },
     /// The function returned NaN or an infinity.
-    #[error(
-        "the function is {} at {}; it must be finite on the whole bracket", six(*value), six(*x)
-    )]
+    #[error("the function is {} at {}; it must be finite on the whole bracket", six(*value), six(*x))]
     NotFinite {
         /// Point of the evaluation.
         x: T,

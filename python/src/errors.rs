@@ -163,7 +163,7 @@ table! {
     InvalidResolution { resolution, least };
     InvalidAdhesion { work };
     BothLimitsGiven { interval };
-    InvalidMoment { value };
+    InvalidMoment { quantity, value };
     TiltNotSupported { why };
     PeakEdge { edge };
     InvalidPoissonRatio { body, ratio };

@@ -269,7 +269,7 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
         "BothLimitsGivenError",
         {"interval": (-0.5, 0.5)},
     ),
-    (lambda: contact().solve(load=1.0, moment=math.nan), "InvalidMomentError", {}),
+    (lambda: contact().solve(load=1.0, moment=math.nan), "InvalidMomentError", {"quantity": "moment"}),
     (lambda: solved_with_moment(limit_search="brent"), "TiltNotSupportedError", {}),
     (lambda: contact().solve(load=0.02, centre_of_pressure=0.9), "TiltNotFoundError", {"load": 0.02, "at": 0.9}),
     (

@@ -18,6 +18,7 @@ import pytest
 import linecontact as lc
 from linecontact import errors
 from linecontact.bodies import _Shape
+from linecontact.reading import _METRES
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = json.loads((ROOT / "docs/scene.schema.json").read_text(encoding="utf-8"))
@@ -273,6 +274,11 @@ def test_units_that_do_not_go_together_are_refused(tmp_path: Path) -> None:
     assert raised.value.field == "units" and raised.value.line is not None
     with pytest.raises(errors.SceneFileError, match=says):
         lc.Scene(contact, (), units | {"pressure": "GPa"}).to_file(file)
+    for quantity, unit in (("load", "kN"), ("load", "kg/mm"), ("pressure", "bar"), ("length", "furlong")):
+        with pytest.raises(errors.SceneFileError, match=f"{unit} .*is no "):
+            lc.Scene(contact, (), units | {quantity: unit}).to_file(file)
+    for unit in (*_METRES, "µm"):  # Those of measured profiles.
+        lc.Scene(contact, (), {"length": unit}).to_file(file)
 
 
 def layered(**wrong: Any) -> dict[str, Any]:

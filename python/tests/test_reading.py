@@ -592,7 +592,7 @@ FAULTS: list[tuple[str, bytes, dict[str, Any], dict[str, Any], str]] = [
     *(
         (f"grouped{i}.txt", f"{one}{by}0.5\n{one}{by}0.6\n".encode(), {}, {"line": 1}, f"{reason}; [\"'].*{one}[\"'] may be one number: take")
         for i, (one, by, reason) in enumerate(
-            [("1 234.5", ";", "x and z"), ("1 234.5", "\t", "3 columns: .* or name"), ("1 234", " ", "or name"), ("12'345.6", ";", ""), ("1’234", ",", "")]
+            [("1 234.5", ";", "x and z"), ("3,000.0", ";", "x and z"), ("3.000,5", ";", "x and z"), ("1 234.5", "\t", "3 columns: .* or name"), ("1 234", " ", "or name"), ("12'345.6", ";", ""), ("1’234", ",", "")]
         )
     ),
     *(

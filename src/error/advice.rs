@@ -1,6 +1,6 @@
 //! Remedies in the texts of errors.
 
-use crate::rounded::{Rounded, apart, is_far, six, span};
+use crate::rounded::{Rounded, apart, endless, is_far, six, span};
 use crate::{Body, Real};
 
 /// Tells whether a number is so small that it has fewer digits than others.
@@ -18,8 +18,7 @@ pub(super) fn lost_digits<T: Real>(value: T) -> &'static str {
 
 /// Rounds an abscissa for a message; the ends of a flat without ends become infinite.
 pub(super) fn place<T: Real>(x: T) -> Rounded {
-    let endless = !(x * T::of(8.0)).is_finite();
-    six(if endless { x * T::of(f64::INFINITY) } else { x })
+    six(endless(x))
 }
 
 /// Tells which part of a load the bodies carry up to one of their ends, and the first remedies.

@@ -12,18 +12,13 @@ use thiserror::Error;
 pub enum EvaluationError<T: Real> {
     /// The pressure was asked for where it is infinite: at a fixed or adhesive edge, at an edge
     /// where Eq. (6) has left a singularity, or where the slope of a body jumps.
-    #[error(
-        "the pressure at x = {} is infinite; ask beside it, or for edge_singularities()", six(*x)
-    )]
+    #[error("the pressure at x = {} is infinite; ask beside it, or for edge_singularities()", six(*x))]
     Singular {
         /// Abscissa asked for.
         x: T,
     },
     /// A point is above the surface, or not finite.
-    #[error(
-        "no stress at x = {x}, depth {depth}: both must be finite, the depth not negative",
-        x = six(*x), depth = six(*depth)
-    )]
+    #[error("no stress at x = {}, depth {}: both must be finite, the depth not negative", six(*x), six(*depth))]
     AboveSurface {
         /// Abscissa.
         x: T,
@@ -31,10 +26,8 @@ pub enum EvaluationError<T: Real> {
         depth: T,
     },
     /// There is no elastic material at some depths.
-    #[error(
-        "no stress at depths from {} to {}: they begin at 0, on the surface, rise, and end at a rigid base",
-        apart(depths[0], &[depths[1]]), apart(depths[1], &[depths[0]])
-    )]
+    #[error("no stress at depths from {} to {}: they begin at 0, on the surface, rise, and end at a rigid base",
+        apart(depths[0], &[depths[1]]), apart(depths[1], &[depths[0]]))]
     NoStress {
         /// Depths asked for, twice the same if it is one.
         depths: [T; 2],

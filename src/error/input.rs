@@ -34,10 +34,8 @@ pub enum InputError<T: Real> {
     },
     /// The force of a [`Pair`](crate::Pair) is not known where its bodies stand: body 2 turns back
     /// or is upside down, its place is not finite, or the contact is not found.
-    #[error(
-        "seen from body 1, body 2 is at x = {}, y = {}, turned by {}: {}",
-        six(*x), six(*y), six(*angle), source.to_string()
-    )]
+    #[error("seen from body 1, body 2 is at x = {}, y = {}, turned by {}: {}", six(*x), six(*y), six(*angle),
+        source.to_string())]
     Pose {
         /// Place of the origin of body 2 along body 1: a length.
         x: T,
@@ -64,10 +62,7 @@ pub enum InputError<T: Real> {
     /// has lost digits, or not positive. With adhesion, and in an interval that is not checked, a
     /// load may have any sign; of bodies that may lift off, a load of zero and an approach of zero
     /// or less leave them apart.
-    #[error(
-        "the {quantity} is {value}: it must be finite, and {must}{}",
-        lost_digits(*value), value = six(*value)
-    )]
+    #[error("the {quantity} is {}: it must be finite, and {must}{}", six(*value), lost_digits(*value))]
     InvalidLoad {
         /// Quantity asked for: `load`, `half-width`, `peak pressure` or `approach`; of a table of
         /// springs `least load` or `largest load`.
@@ -136,10 +131,8 @@ pub enum InputError<T: Real> {
         at: T,
     },
     /// A contact is too wide for the layer below it, or another kernel as short.
-    #[error(
-        "the half-width of the contact is about {} times the thickness of its layer, and at most {} times are solved: \
-         take the layer for a foundation of springs, or its base for the body", six(*ratio), six(*limit)
-    )]
+    #[error("the half-width of the contact is about {} times the thickness of its layer, and at most {} times are solved: \
+         take the layer for a foundation of springs, or its base for the body", six(*ratio), six(*limit))]
     LayerTooThin {
         /// Half-width by thickness, to about a tenth; by half the distance of the nearest
         /// singularity of a kernel.
@@ -237,12 +230,11 @@ pub enum InputError<T: Real> {
         interval: Interval<T>,
     },
     /// A moment, the place where a load acts, or the misalignment of a roller is not finite.
-    #[error(
-        "the moment, the place it is about, the place where the load acts, or the misalignment is {value}: it must be \
-         finite",
-        value = six(*value)
-    )]
+    #[error("the {quantity} is {}: it must be finite", six(*value))]
     InvalidMoment {
+        /// Quantity: `moment`, `place that the moment is about`, `centre of pressure` or
+        /// `misalignment`.
+        quantity: &'static str,
         /// The value.
         value: T,
     },

@@ -13,10 +13,10 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SolveError<T: Real> {
-    /// The bend of the bodies by a layer, or another regular kernel, has not converged.
+    /// The bend of the bodies by a period, a layer or another regular kernel has not converged.
     #[error(
-        "the bend of the bodies by their layer, or another kernel, has not converged in {solves} solves: \
-         Eq. (1) is met to {}; if the contact would be wider than the bodies extend them, else lower the load",
+        "the bend of the bodies by their period, layer or kernel has not converged in {solves} solves: Eq. (1) is met to \
+         {}; lower the load, as near complete contact of a period, or extend bodies that are narrower than the contact",
         six(*residual)
     )]
     Bending {
@@ -37,10 +37,7 @@ pub enum SolveError<T: Real> {
         complete: T,
     },
     /// The solve was ended by the function given to [`Contact::watch`](crate::Contact::watch).
-    #[error(
-        "cancelled after {evaluations} evaluations of the curves, the last from x = {}",
-        span(last.left, last.right)
-    )]
+    #[error("cancelled after {evaluations} evaluations, the last from x = {}", span(last.left, last.right))]
     Cancelled {
         /// Evaluations of the curves by then.
         evaluations: usize,
@@ -48,10 +45,8 @@ pub enum SolveError<T: Real> {
         last: Interval<T>,
     },
     /// `x` is beyond one of the bodies, or NaN.
-    #[error(
-        "x = {} is beyond the bodies, which both cover only {}; ask within, or extend their domains",
-        apart(*x, range), span(range[0], range[1])
-    )]
+    #[error("x = {} is beyond the bodies, which both cover only {}; ask within, or extend their domains",
+        apart(*x, range), span(range[0], range[1]))]
     OutsideBodies {
         /// Abscissa asked for.
         x: T,
@@ -165,10 +160,8 @@ pub enum SolveError<T: Real> {
         last: Interval<T>,
     },
     /// The search for the limits gave up.
-    #[error(
-        "limits not found: {source}; best so far -b = {}, a = {}",
-        apart(best.left, &[best.right]), apart(best.right, &[best.left])
-    )]
+    #[error("limits not found: {source}; best so far -b = {}, a = {}",
+        apart(best.left, &[best.right]), apart(best.right, &[best.left]))]
     LimitSearch {
         /// The best limits so far.
         best: Interval<T>,
@@ -308,10 +301,8 @@ pub enum SolveError<T: Real> {
         ends: Ends<T>,
     },
     /// The bodies come apart: the tensile load exceeds the adhesion.
-    #[error(
-        "no contact under the load {}: the adhesion gives way to a larger pull than {}, the pull-off force to about a \
-         thousandth; pull less", apart(*load, &[*least]), apart(*least, &[*load])
-    )]
+    #[error("no contact under the load {}: the adhesion gives way to a larger pull than {}, the pull-off force to about a \
+         thousandth; pull less", apart(*load, &[*least]), apart(*least, &[*load]))]
     PullOff {
         /// Load per unit length asked for.
         load: T,
@@ -401,10 +392,8 @@ pub enum SolveError<T: Real> {
         rate: T,
     },
     /// A table of springs with as many points as it may have is less exact than its tolerance.
-    #[error(
-        "the tolerance {} is not reached: with all points that a table may have the error is {}; ask for that, or for \
-         a narrower range of loads", six(*tolerance), six(*reached)
-    )]
+    #[error("the tolerance {} is not reached: with all points that a table may have the error is {}; ask for that, or for \
+         a narrower range of loads", six(*tolerance), six(*reached))]
     ToleranceNotReached {
         /// Tolerance as given, a share.
         tolerance: T,
@@ -412,10 +401,8 @@ pub enum SolveError<T: Real> {
         reached: T,
     },
     /// The load of a roller acts beyond its slices: no pressure between them has this moment.
-    #[error(
-        "the load {} acts at z = {}, beyond the middles of the outermost slices, from {}: move it inward, that is, \
-         lower the moment", six(*load), apart(*at, ends), span(ends[0], ends[1])
-    )]
+    #[error("the load {} acts at z = {}, beyond the middles of the outermost slices, from {}: move it inward, that is, \
+         lower the moment", six(*load), apart(*at, ends), span(ends[0], ends[1]))]
     LoadBeyondSlices {
         /// Load on the roller, a force.
         load: T,
@@ -440,10 +427,7 @@ pub enum SolveError<T: Real> {
     },
     /// A single slice of a roller bears the load: then the moment does not determine the
     /// misalignment.
-    #[error(
-        "the slice at z = {} alone bears the load, at any misalignment: take more slices, or give the misalignment",
-        six(*z)
-    )]
+    #[error("the slice at z = {} alone bears the load at any misalignment: give that, or take more slices", six(*z))]
     OneSlice {
         /// Place of this slice along the axis: a length.
         z: T,
@@ -458,10 +442,8 @@ pub enum SolveError<T: Real> {
         source: SearchError<T>,
     },
     /// The force exceeds friction: the bodies slip everywhere.
-    #[error(
-        "the tangential force {} is no less than friction carries, μF = {}: the bodies slip everywhere; lower it, or \
-         raise the load", apart(*force, &[*limit]), apart(*limit, &[*force])
-    )]
+    #[error("the tangential force {} is no less than friction carries, μF = {}: the bodies slip everywhere; lower it, or \
+         raise the load", apart(*force, &[*limit]), apart(*limit, &[*force]))]
     SlipsEverywhere {
         /// Tangential force Q.
         force: T,

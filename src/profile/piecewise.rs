@@ -5,7 +5,7 @@ use super::{
     Convexity, CurvePoint, ParametricProfile, Piece, Placed, Placement, ProfileError, finite_at,
 };
 use crate::Real;
-use crate::rounded::{apart, six};
+use crate::rounded::{apart, endless, six};
 use thiserror::Error;
 
 /// Smooth profiles joined end to end, from left to right.
@@ -253,6 +253,18 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> 
     }
 }
 
+/// Returns the remedy for pieces that overlap between two ends.
+fn how_to_part<T: Real>(ends: [T; 2], share: T) -> String {
+    if ends.iter().all(|&x| endless(x).is_finite()) {
+        format!(
+            "give them from left to right, or join them by Piecewise::with_tolerance, above {}",
+            six(share)
+        )
+    } else {
+        "a body without ends, such as a Flat, is no piece: take a Line of slope 0".into()
+    }
+}
+
 /// Reason why pieces cannot be joined.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
@@ -301,9 +313,9 @@ pub enum PiecewiseError<T: Real> {
     /// Two neighbours overlap: `x` between them belongs to both. Pieces in the wrong order overlap
     /// too.
     #[error(
-        "overlap of {} between pieces {breakpoint} and {} from the left: at x = {left} the one ends, at \
-         {right} the other starts; give them from left to right, or join them by Piecewise::with_tolerance, above {}",
-        six(*left - *right), breakpoint + 1, six(*share), left = apart(*left, &[*right]), right = apart(*right, &[*left])
+        "overlap of {} between pieces {breakpoint} and {} from the left: at x = {} the one ends, at {} the other starts; {}",
+        six(endless(*left - *right)), breakpoint + 1, apart(endless(*left), &[*right]), apart(endless(*right), &[*left]),
+        how_to_part([*left, *right], *share)
     )]
     Overlap {
         /// Number of the breakpoint, 1 between the first two pieces.

@@ -71,6 +71,10 @@ fn enclose<T: Real>(
                 }
                 last = next;
             }
+            // One of both may be far from the ends, between which nothing is found.
+            let ends = [at(left)?, at(right)?];
+            let is_known = ends[0][1].is_finite() && ends[1][1].is_finite() && !rises(ends);
+            let [[a, falls], [b, grows]] = if is_known { ends } else { signs };
             return Err(SolveError::NoFirstContact { x: [a, b], slope: [falls, grows] }.into());
         }
         signs = [

@@ -7,6 +7,7 @@
 use super::edges::{Conditions, Given};
 use super::topology;
 use super::{Contact, Work};
+use crate::contact::check_finite;
 use crate::solution::ContactState;
 use crate::{Fallible, InputError, Interval, Real, SolveError};
 
@@ -21,9 +22,8 @@ pub(super) struct LineOfLoad<T> {
 
 impl<T: Real> LineOfLoad<T> {
     pub fn of_moment(load: T, moment: T, about: T) -> Fallible<T, Self> {
-        if let Some(&value) = [moment, about].iter().find(|value| !value.is_finite()) {
-            return Err(InputError::InvalidMoment { value }.into());
-        }
+        check_finite("moment", moment)?;
+        check_finite("place that the moment is about", about)?;
         let arm = moment / load;
         let rounding = T::epsilon() * (about.abs() + arm.abs());
         Ok(Self { rounding, ..Self::through(load, about + arm)? })
@@ -31,9 +31,7 @@ impl<T: Real> LineOfLoad<T> {
 
     pub fn through(load: T, at: T) -> Fallible<T, Self> {
         super::check_positive("load", load)?;
-        if !at.is_finite() {
-            return Err(InputError::InvalidMoment { value: at }.into());
-        }
+        check_finite("centre of pressure", at)?;
         Ok(Self { load, at, rounding: T::epsilon() * at.abs() })
     }
 }

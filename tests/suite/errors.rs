@@ -5,7 +5,7 @@ use crate::common;
 
 use approx::assert_relative_eq;
 use common::{NanSafe, graph, on_flat, parabola};
-use linecontact::profile::{Parabola, Placed, Placement};
+use linecontact::profile::{Line, Parabola, Placed, Placement};
 use linecontact::search::{Brent, SearchError, StoppingCriteria};
 use linecontact::{
     Attempt, Base, Body, Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge,
@@ -123,6 +123,13 @@ fn bodies_that_do_not_meet() {
     // The lowest point lies beyond the domain.
     let beyond = error(&Flat, &*parabola_at(0.1, 1.0), 0.1);
     assert!(matches!(beyond, ContactError::Solve(SolveError::NoFirstContact { .. })), "{beyond}");
+    // A gap that leads down to one end: the slopes are those at both.
+    for slope in [0.1, -0.1] {
+        let leads_down = error(&Flat, &Line::new(slope, [-1.0, 1.0]).unwrap(), 0.1);
+        let says =
+            format!("its slope is {slope} at x = -1 and {slope} at x = 1; this gap leads down");
+        assert!(leads_down.to_string().contains(&says), "{leads_down}");
+    }
 }
 
 /// Heights that underflow are all alike, but the bodies are not parallel.

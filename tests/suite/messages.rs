@@ -107,7 +107,7 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
         ),
         (
             ContactError::Solve(SolveError::Bending { residual: 1.5, solves: 120 }),
-            &["120 solves", "1.5", "lower the load"],
+            &["period, layer or kernel", "120 solves", "1.5", "complete contact of a period"],
         ),
         (
             ContactError::Evaluation(EvaluationError::HalfPlanesOnly { quantity: "the approach" }),
@@ -264,8 +264,11 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["-b = -11.5", "the load must be given"],
         ),
         (
-            ContactError::Input(InputError::InvalidMoment { value: f64::INFINITY }),
-            &["inf", "finite"],
+            ContactError::Input(InputError::InvalidMoment {
+                quantity: "moment",
+                value: f64::INFINITY,
+            }),
+            &["the moment is inf", "finite"],
         ),
         (
             ContactError::Input(InputError::TiltNotSupported { why: "so it is" }),

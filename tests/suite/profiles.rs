@@ -134,6 +134,15 @@ fn breakpoints_are_checked() {
         join(vec![line(0.0, 1.0, 0.0, 0.0), first()]),
         PiecewiseError::Overlap { breakpoint: 1, left: 1.0, right: -1.0, .. }
     ));
+    // So does a flat, on either side: it has no ends to be joined at.
+    for pieces in [vec![first(), Box::new(Flat)], vec![Box::new(Flat) as Profile, first()]] {
+        let endless = join(pieces).to_string();
+        assert!(endless.contains("overlap of inf") && !endless.contains("e307"), "{endless}");
+        assert!(
+            endless.ends_with("such as a Flat, is no piece: take a Line of slope 0"),
+            "{endless}"
+        );
+    }
 
     // Rounding is not a gap, and measured pieces may be joined with a tolerance.
     let off = |by| vec![first(), line(0.0, 1.0, by, 0.0)];

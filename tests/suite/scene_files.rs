@@ -328,7 +328,9 @@ fn units_that_do_not_go_together_are_refused() {
         ["µm", "MPa", "N / m"],
         ["in", "psi", "lbf/in"],
         ["mm", "MPa", ""],
-        ["parsec", "GPa", "N/mm"],
+        ["cm", "bar", "daN/cm"],
+        ["mm", "kgf/mm²", "kgf/mm"],
+        ["mil", "ksi", "lbf/in"],
         ["", "GPa", "N/mm"],
     ] {
         assert!(read(units).is_ok(), "{units:?}");
@@ -340,12 +342,34 @@ fn units_that_do_not_go_together_are_refused() {
         (["in", "ksi", "lbf/in"], ": give pressures in psi"),
         (["in", "MPa", "lbf/in"], ": give pressures in psi"),
         (["cm", "MPa", "N/mm"], ""),
-        (["mm", "MPa", "N"], ""),
+        (["mm", "bar", "N/mm"], ": give pressures in MPa"),
     ] {
         let [length, pressure, load] = units;
         let says = format!("{pressure} times {length} is no load per length in {load}{remedy}");
         let error = read(units).expect_err(&says);
         assert_eq!((error.field.as_str(), error.reason.as_str()), ("units", &*says));
+    }
+    for (at, quantity, label) in [
+        (0, "lengths", "furlong"),
+        (0, "lengths", "mm²"),
+        (1, "pressures", "N"),
+        (1, "pressures", "N/m/m"),
+        (2, "loads per length", "kN"),
+        (2, "loads per length", "kgf"),
+        (2, "loads per length", "kg/mm"),
+        (2, "loads per length", "Pa"),
+    ] {
+        let mut units = ["mm", "MPa", "N/mm"];
+        units[at] = label;
+        let error = read(units).expect_err(label);
+        assert_eq!(error.field, "units");
+        let says = format!("{label} is no unit of {quantity}");
+        let known = "known are m, in, ft, mil, å, N, lbf, ";
+        assert!(error.reason.starts_with(&says) && error.reason.contains(known), "{error}");
+        // Whatever others there are.
+        let mut units = [""; 3];
+        units[at] = label;
+        assert!(read(units).is_err(), "{label}");
     }
 }
 

@@ -342,14 +342,17 @@ fn what_cannot_be() {
         }
     }
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        for control in [
-            given(0.1, bad),
-            moment(0.1, bad),
-            Control::Moment { load: 0.1, moment: 0.1, about: bad },
+        for (control, named) in [
+            (given(0.1, bad), "centre of pressure"),
+            (moment(0.1, bad), "moment"),
+            (
+                Control::Moment { load: 0.1, moment: 0.1, about: bad },
+                "place that the moment is about",
+            ),
         ] {
             assert!(matches!(
                 error(&contact, control),
-                ContactError::Input(InputError::InvalidMoment { .. })
+                ContactError::Input(InputError::InvalidMoment { quantity, .. }) if quantity == named
             ));
         }
     }

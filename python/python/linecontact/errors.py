@@ -492,10 +492,14 @@ class InvalidMomentError(InputError):
 
     Attributes
     ----------
+    quantity : str
+        Quantity: `moment`, `place that the moment is about`, `centre of pressure` or
+        `misalignment`.
     value : float
         The value.
     """
 
+    quantity: str
     value: float
 
 
@@ -689,7 +693,7 @@ class EdgePressureLoadError(InputError):
 
 
 class BendingError(SolveError):
-    """The bend of the bodies by a layer, or another regular kernel, has not converged.
+    """The bend of the bodies by a period, a layer or another regular kernel has not converged.
 
     Attributes
     ----------

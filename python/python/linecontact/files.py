@@ -52,7 +52,7 @@ class Scene:
         Keyword arguments of `Contact.solve`, one dict for each solve.
     units : dict
         Labels of the units of "length", "pressure" and "load": they convert nothing. Files whose units
-        do not go together, such as GPa with mm and N/mm, are refused.
+        are not known, or do not go together, such as GPa or kN with mm and N/mm, are refused.
     title : str
         Name of the scene.
     references : References, optional

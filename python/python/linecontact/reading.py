@@ -45,7 +45,7 @@ _NO_NUMBER = re.compile(
 # What begins like a number, whatever follows, but no date and no time.
 _LIKE_A_NUMBER = re.compile(r"(?!\d{1,4}([-./])\d{1,2}\1\d{2,4}|\d{1,2}:\d\d)[-+−]?[.,]?\d")
 # What may be one number with a separator of thousands, and a number with a word behind it.
-_GROUPED = re.compile(r"(?<![\d.,])\d{1,3}[\s'’]\d{3}(?!\d)(?:\.\d+)?")
+_GROUPED = re.compile(r"(?<![\d.,])\d{1,3}(?:[\s'’]\d{3}(?!\d)(?:\.\d+)?|,\d{3}\.\d+|\.\d{3},\d+)")
 _WITH_WORD = re.compile(r"[\d.,]*\d\s*([^\W\d_]+)")
 # Exponents of Fortran, as in `1.0D-02`.
 _FORTRAN = re.compile(r"(?<=[\d.])[dD](?=[+-]?\d)")
