@@ -83,7 +83,7 @@ fn a_search_that_is_stopped_ends_an_attempt() {
     let (round, wavy, calls) =
         (Parabola::new(1.0, [-1.0, 1.0]).unwrap(), wavy(), AtomicUsize::new(0));
     let bodies: [(&dyn ParametricProfile<f64>, _); 2] =
-        [(&round, Start::Middle), (&wavy, Start::ActiveSet)];
+        [(&round, Start::Middle), (&wavy, Start::LowestGap)];
     for (body, first) in bodies {
         for most in 0.. {
             calls.store(0, Ordering::Relaxed);
