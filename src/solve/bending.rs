@@ -323,12 +323,14 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         Err(self.not_found())
     }
 
-    /// Tells whether no other step is worth its cost: the residual is that of rounding, or far
-    /// below the error of the limits. Next to a kink r is known to fewer digits.
+    /// Tells whether no other step is worth its cost: the residual is that of rounding, far below
+    /// the error of the limits, or below it and falls no more, as limits next to weak corners move
+    /// by their error from solve to solve. Next to a kink r is known to fewer digits.
     fn is_least(&self, residual: T, error: Option<T>) -> bool {
-        let known = T::of(BELOW) * error.unwrap_or(T::zero());
-        residual <= known.max(rounding())
-            || residual <= T::epsilon().powf(T::of(0.75)) && residual > T::of(STALLED) * self.before
+        let error = error.unwrap_or(T::zero());
+        let known = T::epsilon().powf(T::of(0.75)).max(error);
+        residual <= (T::of(BELOW) * error).max(rounding())
+            || residual <= known && residual > T::of(STALLED) * self.before
     }
 
     /// Goes on from a solve that failed.
