@@ -196,7 +196,7 @@ impl<T: Real> Series<T> {
     pub fn unknown_rate(&self) -> T {
         let rates =
             self.points().iter().zip(&self.rates).map(|(row, by_x)| (row.slope / *by_x).abs());
-        let largest = rates.filter(|rate| rate.is_finite()).fold(T::zero(), T::max);
+        let largest = rates.fold(T::zero(), T::max);
         T::of(200.0 * SERIES_ROUNDING) * T::epsilon() * largest / (self.k[1] - self.k[0]).abs()
     }
 

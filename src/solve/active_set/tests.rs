@@ -1,7 +1,7 @@
 //! Cells against closed forms, and what they refuse.
 
 use super::*;
-use crate::{Side, SolveError};
+use crate::{ContactError, Side, SolveError};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn scene(load: f64, range: [f64; 2]) -> Scene<'static, f64> {
@@ -251,6 +251,27 @@ fn from_the_last_contact_with_fewer_solves() {
     assert_eq!(find(&scene, h).unwrap().intervals.len(), 2);
     scene.start = &[Interval { left: f64::NAN, right: 1.0 }, Interval { left: 5.0, right: -7.0 }];
     assert_eq!(find(&scene, h).unwrap().intervals.len(), 2);
+}
+
+/// A search that is cancelled ends before its next system of equations.
+#[test]
+fn a_search_that_is_cancelled() {
+    let cancelled = || {
+        ContactError::Solve(SolveError::Cancelled {
+            evaluations: 7,
+            last: Interval { left: -1.0, right: 1.0 },
+        })
+    };
+    for most in 0..3 {
+        let looks = std::cell::Cell::new(0);
+        let watch =
+            || if looks.replace(looks.get() + 1) < most { Ok(()) } else { Err(cancelled()) };
+        let scene = Scene { watch: &watch, ..scene(1e-6, [-2.0, 2.0]) };
+        let mut set = ActiveSet::new(&scene, &mut |x| Ok(x * x / 2.0)).unwrap();
+        let found = set.settle(&scene, &mut |x| Ok(x * x / 2.0));
+        assert_eq!(found, Err(NotFound::Height(cancelled())));
+        assert_eq!((looks.get(), set.solves), (most + 1, most));
+    }
 }
 
 #[test]

@@ -240,7 +240,7 @@ impl<T: Real> Several<T> {
             // Half the gap.
             let last = T::of(2.0) * (width / (T::of(4.0) * on.half_width())).sqrt().asinh();
             let side = if near == k { Side::Right } else { Side::Left };
-            // Beyond a corner as near as this, Φ has a singularity at ±i times its t.
+            // A singularity of the slope as near as this is one of Φ, at ±i times its t.
             let wall = self.parts[near].wall(side);
             let mut longest = match wall {
                 Some(wall) => T::of(2.0) * (wall / (T::of(4.0) * on.half_width())).sqrt().asinh(),
