@@ -411,11 +411,11 @@ impl<'s, T: Real> ActiveSet<'s, T> {
 
     /// Prepares the matrix and the rises for cells that were cut.
     fn prepare(&mut self) {
-        let [left, right] = self.range;
-        let place = |cell: &Cell<T>| CellPlace {
-            centre: (cell.centre() - left) / (right - left),
-            width: cell.width() / (right - left),
-        };
+        // Places are as close together as x can be: a distance from an end of the range is rounded
+        // as the range is, which is far wider than the cells at a step.
+        let size = self.range[1] - self.range[0];
+        let place =
+            |cell: &Cell<T>| CellPlace { centre: cell.centre() / size, width: cell.width() / size };
         let before: Vec<_> = self.cells.iter().map(|cell| cell.number).collect();
         let places = self.cells.iter().map(place).collect();
         self.matrix.set(places, &before, |j| self.cells[j].loaded);

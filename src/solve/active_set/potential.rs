@@ -115,14 +115,15 @@ impl<T: Real> Smooth<'_, T> {
     /// Takes other cells: a rule of three points for each length on which the kernel changes.
     fn take(&mut self, cells: &[CellPlace<T>]) {
         let [left, right] = self.range;
-        let length = T::of(0.5) * self.kernel.distance() / (right - left);
+        let size = right - left;
+        let length = T::of(0.5) * self.kernel.distance() / size;
         let nodes = |cell: &CellPlace<T>| {
             let parts = at_least((cell.width / length).component(0)).clamp(1, MAX_PARTS);
             let (width, count) = (cell.width / T::count(parts), T::count(parts));
             let node = |(part, (at, weight)): (usize, (f64, f64))| {
                 let place = T::count(part) + T::of(0.5 + at) - T::of(0.5) * count;
                 let x = cell.centre + width * place;
-                [left + x * (right - left), T::of(weight) / count]
+                [x * size, T::of(weight) / count]
             };
             let all = (0..parts).flat_map(|part| GAUSS.map(|point| (part, point)));
             let nodes: Vec<[T; 2]> = all.map(node).collect();

@@ -216,6 +216,22 @@ fn corners_hold_the_ends() {
 
 /// The parabola x²/2 rolls until it touches around the line of the load, by elimination and by
 /// conjugate gradients.
+/// A step that is known as closely as x can be.
+#[test]
+fn a_step_far_from_the_ends() {
+    let mut random = Random(5);
+    for _ in 0..30 {
+        let (at, load) = (random.within(-0.1, 0.1), 10f64.powf(random.within(-4.0, -2.0)));
+        let h = |x: f64| x * x / 2.0 + if x > at { 0.01 } else { 0.0 };
+        let beside = (0..104).map(|i| 0.5f64.powf(f64::from(i) * 0.5));
+        let mut places: Vec<_> = beside.flat_map(|d| [at - d, at + d]).collect();
+        places.sort_by(f64::total_cmp);
+        let known: Vec<_> = places.into_iter().map(|x| [x, h(x)]).collect();
+        let found = set(&Scene { known: &known, ..scene(load, [-1.0, 1.0]) }, h).unwrap();
+        assert!(found.work < MAX_WORK / 10, "{at} {load}: {}", found.work);
+    }
+}
+
 #[test]
 fn a_parabola_rolls() {
     for (load, at) in [(1e-6, 0.3), (0.01, -0.7), (0.3, 0.01), (0.3, 0.9)] {
