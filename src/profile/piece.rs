@@ -131,11 +131,18 @@ impl<'a, T: Real> Piece<'a, T> {
         curve: &'a dyn ParametricProfile<T>,
     ) -> Result<Scanned<'a, T>, ProfileError<T>> {
         let (piece, points) = Self::scanned(curve)?;
-        let [from, to] = curve.domain();
-        for place in [0.2763, 0.7236] {
-            check_derivatives(&piece, &points, from + (to - from) * T::of(place))?;
-        }
+        piece.check_factors(&points)?;
         Ok((piece, points))
+    }
+
+    /// Compares the derivatives with differences at two places, given some points: a wrong sign or
+    /// factor is found.
+    pub(crate) fn check_factors(&self, points: &[CurvePoint<T>]) -> Result<(), ProfileError<T>> {
+        let [from, to] = self.k;
+        let mut places = [0.2763, 0.7236].into_iter();
+        places.try_for_each(|place| {
+            check_derivatives(self, points, from + (to - from) * T::of(place))
+        })
     }
 
     /// Checks everything but the derivatives, for a curve made from a checked one: its heights may

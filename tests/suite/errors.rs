@@ -4,7 +4,7 @@
 use crate::common;
 
 use approx::assert_relative_eq;
-use common::{NanSafe, graph, on_flat, parabola};
+use common::{Counting, NanSafe, graph, on_flat, parabola};
 use linecontact::profile::{Line, Parabola, Placed, Placement};
 use linecontact::search::{Brent, SearchError, StoppingCriteria};
 use linecontact::{
@@ -527,6 +527,35 @@ fn a_slope_by_x_that_is_wrong() {
     }
     let body = WrongSlope(0.0, Unknown);
     Contact::new(&Flat, &body).unwrap().solve(Control::Load(0.02)).unwrap().certify().unwrap();
+}
+
+/// A factor that X' and Y' share, such as degrees for radians, shows in no slope.
+#[test]
+fn rates_that_share_a_wrong_factor() {
+    for factor in [1.0f64.to_radians().recip(), 25.4, 1e-3, -1.0] {
+        for radius in [1.0, 40.0] {
+            let roller = Curve::new([-1.2, 1.2], move |k: f64| {
+                let (sin, cos) = k.sin_cos();
+                let [dx, dy] = [cos, sin].map(|rate| factor * radius * rate);
+                CurvePoint { x: radius * sin, y: radius * (1.0 - cos), dx, dy }
+            });
+            let calls = AtomicUsize::new(0);
+            let roller = Counting(&roller, &calls);
+            let solved = Contact::new(&Flat, &roller).and_then(|of| of.solve(Control::Load(0.01)));
+            let error = solved.unwrap_err();
+            let ContactError::Input(InputError::Profile { source, .. }) = error else {
+                panic!("{factor}: {error}")
+            };
+            if factor > 0.0 {
+                let ProfileError::Derivative { quantity: "X'", given, difference, .. } = source
+                else {
+                    panic!("{factor}: {source}")
+                };
+                assert_relative_eq!(given / difference, factor, max_relative = 1e-3);
+            }
+            assert!(calls.load(Ordering::Relaxed) < 10_000, "{factor}: {calls:?}");
+        }
+    }
 }
 
 /// A curve that fails once: the search goes on from another start, and the report has both.

@@ -179,15 +179,19 @@ impl<T: Real> ActiveSet<'_, T> {
             intervals[i + 1].left = intervals[i + 1].left.max(to - third);
         }
         // Where the pressure nearly vanishes, rounding parts cells: runs this close are one.
-        intervals.dedup_by(|next, on| {
-            let wider = (next.right - next.left).max(on.right - on.left);
-            let one = next.left - on.right < T::of(LEAST_GAP_OF_CELLS) * wider;
-            if one {
-                on.right = next.right;
+        let mut apart: Vec<Interval<T>> = Vec::with_capacity(intervals.len());
+        let is_close = |before: &Interval<T>, on: &Interval<T>| {
+            let wider = (on.right - on.left).max(before.right - before.left);
+            on.left - before.right < T::of(LEAST_GAP_OF_CELLS) * wider
+        };
+        for mut on in intervals {
+            // A wide one takes in all that are close to it, on either side.
+            while let Some(before) = apart.pop_if(|before| is_close(before, &on)) {
+                on.left = before.left;
             }
-            one
-        });
-        intervals
+            apart.push(on);
+        }
+        apart
     }
 }
 
