@@ -54,12 +54,12 @@ macro_rules! entries {
         certify(of: &Solution<'_, Self>) -> Certificate<Self> = certify(of.solved());
         load_rates(of: &Solution<'_, Self>) -> LoadRates<Self> = LoadRates::of(of.solved());
         approach(of: &Solution<'_, Self>, to: &References<Self>) -> Approach<Self>
-            = Approaching::new(of.solved(), of.elasticity, to)?.of_all();
+            = Approaching::new(of.solved(), of.elasticity.as_ref(), to)?.of_all();
         displacement(
             of: &Solution<'_, Self>, body: Body, x: Self, to: &References<Self>,
-        ) -> Self = Approaching::new(of.solved(), of.elasticity, to)?.of_surface(body, x);
+        ) -> Self = Approaching::new(of.solved(), of.elasticity.as_ref(), to)?.of_surface(body, x);
         approach_rate(of: &Solution<'_, Self>, to: &References<Self>) -> Self
-            = Approaching::new(of.solved(), of.elasticity, to)?.rate();
+            = Approaching::new(of.solved(), of.elasticity.as_ref(), to)?.rate();
         subsurface<'s>(of: &'s Solution<'_, Self>, body: Option<Body>) -> Subsurface<'s, Self>
             = of.below(body);
         stress(below: &Subsurface<'_, Self>, x: Self, depth: Self) -> Stress<Self>

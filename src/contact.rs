@@ -72,7 +72,7 @@ pub struct Contact<'b, T: Real> {
 }
 
 /// Source of κ.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 enum Stiffness<T> {
     Default,
     Kappa,
@@ -398,13 +398,13 @@ impl<'b, T: Real> Contact<'b, T> {
 
     /// Returns the elasticity of both bodies, if it is known.
     pub(crate) fn elasticity(&self) -> Result<Option<[Elasticity<T>; 2]>, ContactError<T>> {
-        let Stiffness::Materials(materials, state) = self.stiffness else { return Ok(None) };
-        Ok(Some(Elasticity::of_bodies(&materials, state)?.0))
+        let Stiffness::Materials(materials, state) = &self.stiffness else { return Ok(None) };
+        Ok(Some(Elasticity::of_bodies(materials, *state)?.0))
     }
 
     /// Returns what the bodies have beside half-planes, if anything.
     pub(crate) fn kernel_of_bodies(&self) -> Result<Option<Box<Kernel<'b, T>>>, ContactError<T>> {
-        let is_layer = |of: &Foundation<T>| matches!(of, Foundation::Layer(_));
+        let is_layer = |of: &Foundation<T>| !matches!(of, Foundation::HalfPlane(_));
         let has_layer =
             matches!(&self.stiffness, Stiffness::Materials(of, _) if of.iter().any(is_layer));
         if !has_layer && self.beside.is_empty() {

@@ -125,7 +125,7 @@ pub use finite_roller::{FiniteRoller, RollerSlice, RollerState};
 pub use gap::{Cost, Gap};
 pub use interval::Interval;
 pub use kernel::{RegularKernel, SurfaceCompliance};
-pub use material::{Base, Foundation, Layer, Material, PlaneState, Reference, References};
+pub use material::{Base, Foundation, Layer, Material, PlaneState, Reference, References, Stack};
 pub use pair::{Pair, Pose, Wrench};
 pub use profile::{Convexity, Piece, ProfileError, check_derivatives};
 pub use profile::{Curve, CurvePoint, Flat, ParametricProfile, Piecewise, PiecewiseError};

@@ -13,9 +13,10 @@
 //! couple the two directions (Johnson, §7.2).
 
 mod layer;
+mod sheets;
 
 pub(crate) use layer::Coating;
-pub use layer::{Base, Foundation, Layer};
+pub use layer::{Base, Foundation, Layer, Stack};
 
 use crate::{Body, ContactError, InputError, Real};
 
@@ -123,7 +124,7 @@ impl PlaneState {
 }
 
 /// Elastic constants that the surface of a body depends on.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Elasticity<T> {
     /// 1/M, zero for a rigid body.
     pub compliance: T,
@@ -150,16 +151,16 @@ impl<T: Real> Elasticity<T> {
 
     /// Returns Dundurs' β, zero for like bodies and for incompressible ones. With β = 0 friction
     /// leaves the pressure unchanged (Johnson, Eq. 5.3).
-    pub fn dundurs([lower, upper]: [Self; 2]) -> T {
+    pub fn dundurs([lower, upper]: &[Self; 2]) -> T {
         // (1 - 2ν)/(2 G), with 1/M = (1 - ν)/(2 G).
-        let coupling = |body: Self| {
+        let coupling = |body: &Self| {
             body.compliance * (T::one() - body.ratio - body.ratio) / (T::one() - body.ratio)
         };
         T::of(0.5) * (coupling(lower) - coupling(upper)) / (lower.compliance + upper.compliance)
     }
 
     /// Refuses bodies whose β is not zero to rounding.
-    pub fn check_like(bodies: [Self; 2]) -> Result<(), InputError<T>> {
+    pub fn check_like(bodies: &[Self; 2]) -> Result<(), InputError<T>> {
         let beta = Self::dundurs(bodies);
         let is_zero = beta.abs() <= T::of(16.0) * T::epsilon();
         if is_zero { Ok(()) } else { Err(InputError::UnlikeBodies { beta }) }

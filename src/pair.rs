@@ -271,7 +271,10 @@ impl<'b, T: Real> Pair<'b, T> {
             Err(ContactError::Input(InputError::NoCommonRange { .. })) => {
                 return apart(-T::one() / zero, [seen.x, seen.y]);
             }
-            contact => contact?.materials(self.materials[0], self.materials[1], self.state),
+            contact => {
+                let [lower, upper] = self.materials.clone();
+                contact?.materials(lower, upper, self.state)
+            }
         };
         let contact = contact.with_resolution(self.resolution);
         let [place, gap] = self.solver.first_touch(&contact)?;

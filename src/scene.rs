@@ -98,7 +98,7 @@ pub struct Scene<T> {
 }
 
 /// Source of the scale κ.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 pub enum Stiffness<T> {
     /// E*, a pressure: [`Contact::contact_modulus`].
@@ -121,11 +121,12 @@ pub enum Stiffness<T> {
 fn possible<'de, T: Real + Deserialize<'de>, D: Deserializer<'de>>(
     file: D,
 ) -> Result<Option<Stiffness<T>>, D::Error> {
-    let stiffness = Option::deserialize(file)?;
-    let level = Scene { stiffness, ..Scene::new(Shape::Flat, Shape::Flat) }.contact();
+    let scene =
+        Scene { stiffness: Option::deserialize(file)?, ..Scene::new(Shape::Flat, Shape::Flat) };
+    let level = scene.contact();
     let check = |contact: Contact<'_, T>| contact.check(Control::Load(T::one()));
     level.and_then(check).map_err(de::Error::custom)?;
-    Ok(stiffness)
+    Ok(scene.stiffness)
 }
 
 /// Labels of the units that the numbers of a scene are in. They are printed, and convert nothing;
@@ -239,7 +240,7 @@ impl<T: Real> Scene<T> {
     /// As [`Contact::owned`], and [`PlacedShape::build`].
     pub fn contact(&self) -> Result<Contact<'static, T>, ContactError<T>> {
         let contact = Contact::owned(self.lower.build()?, self.upper.build()?)?;
-        let mut contact = match self.stiffness {
+        let mut contact = match self.stiffness.clone() {
             None => contact,
             Some(Stiffness::ContactModulus(modulus)) => contact.contact_modulus(modulus),
             Some(Stiffness::Kappa(kappa)) => contact.kappa(kappa),

@@ -288,7 +288,8 @@ impl<T: Real> SpringTable<T> {
 
 /// Returns the point of a solution.
 fn node<T: Real>(solution: &Solution<'_, T>, references: &References<T>) -> Fallible<T, Node<T>> {
-    let approaching = Approaching::new(solution.solved(), solution.elasticity, references)?;
+    let approaching =
+        Approaching::new(solution.solved(), solution.elasticity.as_ref(), references)?;
     let [approach, rate] = approaching.with_rate()?;
     let (load, rates) = (solution.load(), solution.load_rates()?);
     let half_contact = solution.intervals().iter().fold(T::zero(), |sum, on| sum + on.half_width());

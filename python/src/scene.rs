@@ -8,7 +8,7 @@ use linecontact::quadrature::Quadrature;
 use linecontact::search::{LimitSearch, StoppingCriteria, strategies};
 use linecontact::{
     Base, Contact, Edge, EdgePressure, Exponents, Foundation, Interval, Layer, Material, Midpoint,
-    Panels, PlaneState, Real, Shear,
+    Panels, PlaneState, Real, Shear, Stack,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -84,30 +84,44 @@ fn material<L: Lift>(of: Elastic, lift: &mut L) -> Material<L::Of> {
     })
 }
 
-/// Base of a layer: "bonded" or "frictionless", or a half-plane.
+/// Base of layers: "bonded" or "frictionless", or a half-plane.
 #[derive(FromPyObject)]
 pub enum Below {
     Rigid(String),
     HalfPlane(Elastic),
 }
 
-/// Material at the surface, and thickness and base of its layer, if it is one.
-pub type Surface = (Elastic, Option<(f64, Below)>);
+/// Layers from the surface down, each with its thickness, and their base; none on a half-plane.
+pub type Surface = (Vec<(Elastic, f64)>, Below);
 
-pub fn foundation<L: Lift>((of, below): &Surface, lift: &mut L) -> PyResult<Foundation<L::Of>> {
-    let Some((thickness, base)) = below else { return Ok(material(*of, lift).into()) };
-    let material_of =
-        |of: Elastic, name: &str, lift: &mut L| lift.inside(name, |lift| material(of, lift));
-    Ok(Foundation::Layer(Layer {
-        material: material_of(*of, "material", lift),
-        thickness: lift.number("thickness", *thickness),
-        base: match base {
-            Below::HalfPlane(of) => Base::HalfPlane(material_of(*of, "base", lift)),
-            Below::Rigid(name) if name == "bonded" => Base::Bonded,
-            Below::Rigid(name) if name == "frictionless" => Base::Frictionless,
-            Below::Rigid(name) => return none_such("base", &(name.clone(), Vec::new())),
-        },
-    }))
+pub fn foundation<L: Lift>((layers, base): &Surface, lift: &mut L) -> PyResult<Foundation<L::Of>> {
+    let mut found = Vec::new();
+    let base = below(layers, base, &mut found, lift)?;
+    Ok(match (&found[..], base) {
+        ([], Base::HalfPlane(material)) => material.into(),
+        (&[(material, thickness)], base) => Layer { material, thickness, base }.into(),
+        (_, base) => Stack { layers: found, base }.into(),
+    })
+}
+
+/// Lists layers, each the base of the one before, and returns the last base.
+fn below<L: Lift>(
+    layers: &[(Elastic, f64)],
+    base: &Below,
+    found: &mut Vec<(Material<L::Of>, L::Of)>,
+    lift: &mut L,
+) -> PyResult<Base<L::Of>> {
+    let [(of, thickness), rest @ ..] = layers else {
+        return match base {
+            Below::HalfPlane(of) => Ok(Base::HalfPlane(material(*of, lift))),
+            Below::Rigid(name) if name == "bonded" => Ok(Base::Bonded),
+            Below::Rigid(name) if name == "frictionless" => Ok(Base::Frictionless),
+            Below::Rigid(name) => none_such("base", &(name.clone(), Vec::new())),
+        };
+    };
+    let material = lift.inside("material", |lift| material(*of, lift));
+    found.push((material, lift.number("thickness", *thickness)));
+    lift.inside("base", |lift| below(rest, base, found, lift))
 }
 
 pub fn plane(name: &str) -> PyResult<PlaneState> {

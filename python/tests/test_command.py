@@ -191,6 +191,17 @@ def test_largest_stresses_are_those_of_the_material_that_has_them(run: Run, tmp_
     assert float(row["tresca [MPa]"]) >= 2 * found["lower layer"][0] and row["tresca_in"] == "lower layer"
 
 
+def test_below_several_layers_no_stress_is_known(run: Run, tmp_path: Path) -> None:
+    stack = lc.Layer(HARD.material, 0.2, lc.Layer(STEEL, 0.1, "bonded"))
+    for lower, upper in ((stack, STEEL), (stack, stack)):
+        scene = roller({"load": 1.0}, materials=(lower, upper))
+        code, out, _ = run(scene, "--npz", tmp_path / "out.npz", "--vtk", tmp_path / "out.vtk", "--csv", tmp_path / "out.csv")
+        assert code == 0 and "the stress below several layers" in out
+        assert ("shear" in out) == (upper == STEEL) and out.count("lower layer") == 2
+        with np.load(tmp_path / "out.npz") as arrays:
+            assert ("upper_sigma_x" in arrays) == (upper == STEEL) and "lower_sigma_x" not in arrays
+
+
 def test_fields_of_both_bodies(run: Run, tmp_path: Path) -> None:
     rubber = lc.Layer(lc.Material(5.0, 0.48), 0.2, "bonded")
     for lower, deepest in ((HARD, math.inf), (rubber, 0.2)):

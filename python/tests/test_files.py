@@ -129,6 +129,7 @@ SOFT = lc.Material(ODD, 0.5)
         {"kappa": 2.0, "period": 2.5},
         {"materials": (lc.Material.rigid(), lc.Material(210e3, 0.3)), "plane": "stress", "certified": True},
         {"materials": (lc.Layer(SOFT, ODD, "frictionless"), lc.Layer(SOFT, 1e-3, "bonded"))},
+        {"materials": (lc.Layer(SOFT, ODD, lc.Layer(SOFT, 1e-3, "bonded")), lc.Layer(SOFT, 0.1, lc.Layer(SOFT, 0.2, SOFT)))},
         {"materials": (lc.Layer(lc.Material.rigid(), ODD, SOFT), lc.Layer(SOFT, 1, lc.Material.rigid()))},
         {"kappa": 1.0, "edges": (lc.Edge.fixed(-1.0), lc.Edge.adhesive(ODD))},
     ],

@@ -57,7 +57,7 @@ def test_materials_and_the_elastic_constants_of_each() -> None:
     assert all(abs(found / wanted - 1) < 1e-12 for found, wanted in zip(derivatives, exact, strict=True))
 
 
-@pytest.mark.parametrize("base", [STEEL, "bonded", "frictionless"])
+@pytest.mark.parametrize("base", [STEEL, "bonded", "frictionless", lc.Layer(ALUMINIUM, 3.0, STEEL)])
 def test_a_layer_by_all_its_numbers(base: Any) -> None:
     """All lengths, or all pressures, are in any unit: Euler's theorem ties the derivatives."""
     cover = lc.Layer(lc.Material(5.0, 0.48), 10.0, base)

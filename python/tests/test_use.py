@@ -22,7 +22,7 @@ import pytest
 from scenes import Array, example_four, example_three, gear
 
 import linecontact as lc
-from linecontact import _native, drawing
+from linecontact import _native, drawing, errors
 
 FLAT = lc.Flat()
 BODY = lc.Parabola(1.0, (-1.0, 1.0))
@@ -332,6 +332,16 @@ def test_a_layer_is_a_value() -> None:
     assert again == layer and type(again) is lc.Layer and eval(repr(layer), vars(lc)) == layer
     one, other = (lc.Contact(FLAT, BODY, materials=(lc.Layer(STEEL, h, STEEL), STEEL)) for h in (1.0, 2.0))
     assert one != other and hash(one) != hash(other) and repr(one) in repr([one])
+
+
+def test_like_layers_are_one() -> None:
+    one = lc.Layer((5.0, 0.48), 0.3, "frictionless")
+    two = lc.Layer((5.0, 0.48), 0.1, one._replace(thickness=0.2))
+    assert two == eval(repr(two), vars(lc)) == pickle.loads(pickle.dumps(two))
+    found, exact = (lc.solve(FLAT, BODY, materials=(of, STEEL), load=0.1) for of in (two, one))
+    assert math.isclose(found.a, exact.a, rel_tol=1e-13)
+    with pytest.raises(errors.HalfPlanesOnlyError, match="several layers"):
+        found.max_shear(body="lower")
 
 
 def test_a_layer_like_its_base_is_none_and_a_thin_one_a_row_of_springs() -> None:

@@ -14,7 +14,7 @@ impl<T: Real> Layers<T> {
     /// Returns the layers of two bodies; `None` without any.
     pub fn of(bodies: &[Elasticity<T>; 2]) -> Option<Self> {
         let sum = bodies[0].compliance + bodies[1].compliance;
-        let layer = |body: &Elasticity<T>| Some((body.compliance / sum, body.layer?));
+        let layer = |body: &Elasticity<T>| Some((body.compliance / sum, body.layer.clone()?));
         let layers: Vec<_> = bodies.iter().filter_map(layer).collect();
         (!layers.is_empty()).then_some(Self { layers })
     }

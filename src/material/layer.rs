@@ -13,8 +13,10 @@
 //!
 //! λ and χ are combinations of Dundurs' constants. K - 1 goes to zero like `ξ² exp(-2ξ)`.
 
+use super::sheets::Sheets;
 use super::{Elasticity, Material};
 use crate::{Body, ContactError, InputError, PlaneState, Real};
+use std::sync::Arc;
 
 /// Layer of even thickness at the surface of a body.
 ///
@@ -57,16 +59,47 @@ pub enum Base<T> {
     Frictionless,
 }
 
+/// Several layers, bonded to each other, on a base.
+///
+/// The stress below them and depths as a [`Reference`](crate::Reference) are refused.
+///
+/// ```
+/// use linecontact::{Base, Contact, Control, Flat, Material, PlaneState, Stack};
+/// use linecontact::profile::Parabola;
+///
+/// // Carbon of 2 µm on nitride of 3 µm on steel: mm, MPa, N/mm.
+/// let [carbon, nitride, steel] = [180e3, 280e3, 210e3].map(|e| Material::elastic(e, 0.25));
+/// let base = Base::HalfPlane(steel);
+/// let coated = Stack { layers: vec![(carbon, 2e-3), (nitride, 3e-3)], base };
+/// let roller = Parabola::new(10.0, [-1.0, 1.0])?;
+/// let contact = Contact::new(&Flat, &roller)?;
+/// let contact = contact.materials(coated, steel, PlaneState::Strain);
+/// assert!(contact.solve(Control::Load(10.0))?.a() < 0.034);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Stack<T> {
+    /// Layers from the surface down: the material of each, and its thickness, a length.
+    pub layers: Vec<(Material<T>, T)>,
+    /// Body below the last layer.
+    pub base: Base<T>,
+}
+
 /// What a body is made of below its surface.
 ///
-/// In a file a half-plane is written as its [`Material`], and a layer under the name `layer`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// In a file a half-plane is written as its [`Material`], a layer under the name `layer`, and
+/// several under `stack`.
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Foundation<T> {
     /// Layer on a base.
     Layer(Layer<T>),
+    /// Several layers on a base.
+    Stack(Stack<T>),
     /// Half-plane of one material.
     #[cfg_attr(feature = "serde", serde(untagged))]
     HalfPlane(Material<T>),
@@ -83,6 +116,7 @@ impl<'de, T: serde::Deserialize<'de>> serde::Deserialize<'de> for Foundation<T> 
             Elastic { youngs_modulus: T, poisson_ratio: T },
             Rigid,
             Layer(Layer<T>),
+            Stack(Stack<T>),
         }
         Ok(match Material::deserialize(file)? {
             Material::Elastic { youngs_modulus, poisson_ratio } => {
@@ -90,6 +124,7 @@ impl<'de, T: serde::Deserialize<'de>> serde::Deserialize<'de> for Foundation<T> 
             }
             Material::Rigid => Self::HalfPlane(crate::Material::Rigid),
             Material::Layer(layer) => Self::Layer(layer),
+            Material::Stack(stack) => Self::Stack(stack),
         })
     }
 }
@@ -106,6 +141,12 @@ impl<T> From<Layer<T>> for Foundation<T> {
     }
 }
 
+impl<T> From<Stack<T>> for Foundation<T> {
+    fn from(stack: Stack<T>) -> Self {
+        Self::Stack(stack)
+    }
+}
+
 impl<T: Real> Foundation<T> {
     /// Returns the elastic constants of the surface, with those of a layer below it.
     pub(super) fn elasticity(
@@ -113,31 +154,43 @@ impl<T: Real> Foundation<T> {
         body: Body,
         state: PlaneState,
     ) -> Result<Elasticity<T>, ContactError<T>> {
-        let Layer { material, thickness, base } = match *self {
-            Self::HalfPlane(material) => return Elasticity::of(body, material, state),
-            Self::Layer(layer) => layer,
+        let (given, base) = match self {
+            Self::HalfPlane(material) => return Elasticity::of(body, *material, state),
+            Self::Layer(layer) => (&[(layer.material, layer.thickness)][..], &layer.base),
+            Self::Stack(Stack { layers, base }) => (&layers[..], base),
         };
-        if !(thickness.is_finite() && thickness > T::zero()) {
-            return Err(InputError::InvalidThickness { body, thickness }.into());
+        let mut layers = Vec::with_capacity(given.len());
+        for &(material, thickness) in given {
+            if !(thickness.is_finite() && thickness > T::zero()) {
+                return Err(InputError::InvalidThickness { body, thickness }.into());
+            }
+            layers.push((Elasticity::of(body, material, state)?, thickness));
         }
-        let surface = Elasticity::of(body, material, state)?;
-        let below = match base {
-            Base::HalfPlane(below) => Elasticity::of(body, below, state)?,
-            Base::Bonded | Base::Frictionless => Elasticity::of(body, Material::Rigid, state)?,
+        let mut below = match base {
+            Base::HalfPlane(below) => Elasticity::of(body, *below, state)?,
+            _ => Elasticity::of(body, Material::Rigid, state)?,
         };
-        // A rigid layer is a rigid body, whatever is below it.
-        let layer = (material != Material::Rigid).then(|| Coating {
+        let mut slides = *base == Base::Frictionless;
+        // A rigid layer is a rigid base, whatever is below it.
+        let is_rigid = |(of, _): &(Elasticity<T>, T)| of.compliance.is_zero();
+        if let Some(rigid) = layers.iter().position(is_rigid) {
+            (below, slides) = (Elasticity::of(body, Material::Rigid, state)?, false);
+            layers.truncate(rigid);
+        }
+        let Some((surface, thickness)) = layers.first().cloned() else { return Ok(below) };
+        let layer = Coating {
             thickness,
             at_zero: below.compliance / surface.compliance - T::one(),
             ratios: [surface.ratio, below.ratio],
-            bonded: (base != Base::Frictionless).then(|| constants(&surface, &below)),
-        });
-        Ok(Elasticity { layer, ..surface })
+            bonded: (!slides).then(|| constants(&surface, &below)),
+            sheets: (layers.len() > 1).then(|| Arc::new(Sheets::new(&layers, &below, slides))),
+        };
+        Ok(Elasticity { layer: Some(layer), ..surface })
     }
 }
 
 /// Constants of a layer.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Coating<T> {
     pub thickness: T,
     /// K(0) - 1.
@@ -146,6 +199,8 @@ pub(crate) struct Coating<T> {
     ratios: [T; 2],
     /// `[1 - λ, 1 - χ]`; `None` on a base without friction.
     bonded: Option<[T; 2]>,
+    /// All layers, if there are more below it.
+    sheets: Option<Arc<Sheets<T>>>,
 }
 
 /// Returns `1 - λ` and `1 - χ` for a layer bonded to a base; 1/M of a rigid base is zero.
@@ -160,7 +215,13 @@ fn constants<T: Real>(layer: &Elasticity<T>, base: &Elasticity<T>) -> [T; 2] {
 impl<T: Real> Coating<T> {
     /// Returns the longest length on which K changes.
     pub fn longest(&self) -> T {
-        self.thickness * (T::one() + self.at_zero).max(T::one())
+        let single = self.thickness * (T::one() + self.at_zero).max(T::one());
+        self.sheets.as_ref().map_or(single, |sheets| sheets.longest())
+    }
+
+    /// Tells whether it lies on another layer.
+    pub fn is_of_stack(&self) -> bool {
+        self.sheets.is_some()
     }
 
     /// Tells whether the base is rigid.
@@ -171,6 +232,9 @@ impl<T: Real> Coating<T> {
     /// Returns K - 1, to rounding relative to itself: every sum is one of positive terms.
     pub fn excess(&self, xi: T) -> T {
         let (one, two, four) = (T::one(), T::of(2.0), T::of(4.0));
+        if let Some(sheets) = &self.sheets {
+            return sheets.excess(xi / self.thickness);
+        }
         let [decay, rest] = decays(xi);
         let Some([less_lambda, less_chi]) = self.bonded else {
             return -two * decay * (two * xi + rest) / delta_of_slip(xi, decay);

@@ -74,7 +74,7 @@ impl<T: Real> PinInHole<T> {
         state: PlaneState,
     ) -> Result<Self, ContactError<T>> {
         let (bodies, modulus) = Elasticity::of_bodies(&[hole.into(), pin.into()], state)?;
-        Elasticity::check_like(bodies)?;
+        Elasticity::check_like(&bodies)?;
         positive([("the radius", radius), ("the load", load)])?;
         let share = bodies[0].compliance * modulus;
         let wanted = T::pi() * (modulus / load) * clearance;

@@ -60,7 +60,7 @@ use super::solved::Solved;
 use super::undeformed_gap::UndeformedGap;
 use crate::gap::{Gap, Sampler};
 use crate::kernel::{Bend, Periodic, RegularKernel, wavenumbers};
-use crate::material::Elasticity;
+use crate::material::{Coating, Elasticity};
 use crate::quadrature::{Engine, Panels};
 use crate::{
     Body, ContactError, InputError, Interval, Real, Reference, References, Side, Solution,
@@ -203,7 +203,7 @@ pub(crate) struct Approaching<'s, T: Real> {
 }
 
 /// Body with its reference.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct Referred<T> {
     body: Elasticity<T>,
     /// Depth of the reference, or the length in the logarithm.
@@ -226,7 +226,7 @@ struct First<T> {
 impl<'s, T: Real> Approaching<'s, T> {
     pub fn new(
         solved: Solved<'s, T>,
-        bodies: Option<[Elasticity<T>; 2]>,
+        bodies: Option<&[Elasticity<T>; 2]>,
         references: &References<T>,
     ) -> Result<Self, ContactError<T>> {
         let bodies = bodies.ok_or(InputError::NoMaterials)?;
@@ -238,9 +238,9 @@ impl<'s, T: Real> Approaching<'s, T> {
         let x = place(solved.gap, x)?;
         let half_width = solved.found.interval.half_width();
         let period = kernel.and_then(|kernel| kernel.row.as_ref()).map(|row| row.period);
-        let referred = |body: Elasticity<T>, reference| {
+        let referred = |body: &Elasticity<T>, reference| {
             // A row has its mean planes, a rigid base is a reference, and a rigid body needs none.
-            let own = match (period, body.layer) {
+            let own = match (period, &body.layer) {
                 (Some(period), _) => Some(period / T::two_pi()),
                 (None, Some(layer)) => layer.is_on_rigid().then_some(layer.thickness),
                 (None, None) => body.compliance.is_zero().then_some(half_width),
@@ -251,16 +251,19 @@ impl<'s, T: Real> Approaching<'s, T> {
                 Reference::Length(length) => (length, length, false),
             };
             if let Some(length) = own {
-                return Ok(Referred { body, length, is_depth: false });
+                return Ok(Referred { body: body.clone(), length, is_depth: false });
             }
             // The formula of the disc is for contacts that are small beside it.
             let is_small = matches!(reference, Reference::Disc(radius) if radius <= half_width);
             if is_small || !(given.is_finite() && given > T::zero()) {
-                return Err(InputError::InvalidReference { length: given });
+                return Err(ContactError::from(InputError::InvalidReference { length: given }));
             }
-            Ok(Referred { body, length, is_depth })
+            if is_depth && body.layer.as_ref().is_some_and(Coating::is_of_stack) {
+                solved.of_half_planes("the approach to a depth below several layers")?;
+            }
+            Ok(Referred { body: body.clone(), length, is_depth })
         };
-        let bodies = [referred(bodies[0], lower)?, referred(bodies[1], upper)?];
+        let bodies = [referred(&bodies[0], lower)?, referred(&bodies[1], upper)?];
         Ok(Self { solved, x, bodies })
     }
 
@@ -332,7 +335,7 @@ impl<'s, T: Real> Approaching<'s, T> {
     /// Returns `k_i + 2 ln|ξ|` of each body.
     fn kernels(&self, distance: T) -> [T; 2] {
         let (scale, two) = (self.scale(), T::of(2.0));
-        self.bodies.map(|Referred { body, length, is_depth }| {
+        self.bodies.each_ref().map(|&Referred { ref body, length, is_depth }| {
             if !is_depth {
                 return two * (length / scale).ln();
             }
@@ -353,7 +356,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         }
         if let Some(potential) = integrals.density.potential()? {
             let below = |i: usize| {
-                let Referred { body, length, is_depth } = self.bodies[i];
+                let Referred { ref body, length, is_depth } = self.bodies[i];
                 if !is_depth {
                     return Some(constant[i]);
                 }
@@ -393,7 +396,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         };
         let load = sum(&|_| T::one());
         let bent = row.map_or(T::zero(), |row| sum(&|distance| row.height(distance, T::zero())));
-        let Some(layer) = of.body.layer else { return [T::zero(), bent] };
+        let Some(layer) = &of.body.layer else { return [T::zero(), bent] };
         let Referred { length, is_depth, .. } = *of;
         // The mean planes of a row do not depend on the base.
         let at_zero = if row.is_some() { T::zero() } else { layer.at_zero };
@@ -468,7 +471,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         let (contacts, bend) = (self.solved.contacts(), self.solved.gap.bend());
         if let ([on], None) = (contacts, bend) {
             LoadRates::limits_of_one(self.solved)?;
-            let punches = self.bodies.map(|of| self.of_punch(*on, of));
+            let punches = self.bodies.each_ref().map(|of| self.of_punch(*on, of));
             return Ok(self.both(punches, T::zero()));
         }
         let rates = LoadRates::of(self.solved)?;
@@ -485,8 +488,8 @@ impl<'s, T: Real> Approaching<'s, T> {
     /// under a unit load. Take the ellipse through the reference with its foci at the limits, and η
     /// the logarithm of the sum of its half-axes over L: the first part is 2 η; the second is the
     /// real part of `d ∂/∂d`.
-    fn of_punch(&self, on: Interval<T>, of: Referred<T>) -> T {
-        let Referred { body, length: depth, is_depth } = of;
+    fn of_punch(&self, on: Interval<T>, of: &Referred<T>) -> T {
+        let Referred { ref body, length: depth, is_depth } = *of;
         let (one, two, half_width, x) = (T::one(), T::of(2.0), on.half_width(), self.x);
         if !is_depth {
             return two * (two * depth / half_width).ln();
@@ -533,7 +536,8 @@ impl<'s, T: Real> Approaching<'s, T> {
             return Ok(T::zero());
         }
         let integrals = Integrals::new(self.solved)?;
-        let ([smooth, _], at) = (self.smooth(&integrals)?, Self { x, ..*self });
+        let ([smooth, _], at) =
+            (self.smooth(&integrals)?, Self { x, bodies: self.bodies.clone(), ..*self });
         let bent = match gap.bend() {
             Some(_) => at.smooth(&integrals)?[1],
             None => [T::zero(); 2],

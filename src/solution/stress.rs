@@ -253,10 +253,14 @@ impl<T: Real> Solution<'_, T> {
 
     /// Returns the layer of a body, if it has one. Both are meant if none is named.
     fn layer(&self, body: Option<Body>) -> Result<Option<Coating<T>>, ContactError<T>> {
-        let layers = self.elasticity.map_or([None; 2], |bodies| bodies.map(|body| body.layer));
+        let bodies = self.elasticity.clone();
+        let mut layers = bodies.map_or([None, None], |bodies| bodies.map(|body| body.layer));
         let is_known = self.gap.bend().is_none_or(|bend| bend.kernel_of_bodies().is_of_bodies);
-        let quantity = match body {
-            Some(body) if is_known => return Ok(layers[body as usize]),
+        let quantity = match body.map(|body| layers[body as usize].take()) {
+            Some(Some(layer)) if is_known && layer.is_of_stack() => {
+                "the stress below several layers"
+            }
+            Some(layer) if is_known => return Ok(layer),
             None if is_known && layers.iter().all(Option::is_none) => return Ok(None),
             None if is_known => "the stress of both bodies at once (name the lower or upper one)",
             _ => "the stress below the surface (but that of layers)",

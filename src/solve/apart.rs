@@ -58,7 +58,7 @@ fn lifted<T: Real>(
     if let Control::Approach { references, .. } = control {
         let (gap, kappa, integrator) = (&contact.gap, contact.kappa, &*work.integrator);
         let solved = Solved { gap, integrator, kappa, found: &found };
-        Approaching::new(solved, contact.elasticity()?, &references)?;
+        Approaching::new(solved, contact.elasticity()?.as_ref(), &references)?;
     }
     work.workspace.report.end(Start::LowestGap, Ok((Outcome::Apart, Some(found))))
 }

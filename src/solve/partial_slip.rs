@@ -28,7 +28,7 @@ impl<'b, T: Real> Contact<'b, T> {
             return refuse("the bodies have a layer or another kernel");
         }
         if let Some(bodies) = self.elasticity()? {
-            Elasticity::check_like(bodies)?;
+            Elasticity::check_like(&bodies)?;
         }
         Ok(())
     }

@@ -7,6 +7,7 @@ mod periodic;
 mod rates;
 mod refused;
 mod scenes;
+mod stack;
 mod stress;
 
 use crate::common::{Profile, graph, join, kernel_values};

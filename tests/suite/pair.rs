@@ -249,7 +249,7 @@ fn joined_bodies_measured_ones_and_layers_move_too() {
     let bodies: [&dyn ParametricProfile<f64>; 2] = [&roof, &spline];
     for body in bodies {
         for lower in [Foundation::from(STEEL), Foundation::from(layer)] {
-            let pair = Pair::new(&Flat, body, (lower, STEEL), TO);
+            let pair = Pair::new(&Flat, body, (lower.clone(), STEEL), TO);
             let mut pair = pair.plane_state(PlaneState::Strain);
             let level = pair.at(REST, pose(0.0, -1e-3, 0.0)).unwrap();
             let contact = Contact::new(&Flat, body).unwrap();

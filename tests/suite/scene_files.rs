@@ -65,7 +65,8 @@ fn every_scene_is_kept_bit_for_bit() {
                 plane: PlaneState::Stress,
             }),
             Some(layers(steel)),
-        ][i % 5];
+        ][i % 5]
+            .clone();
         scene.edges = [None, Some(Ends { left: Edge::Free, right: Edge::FreeUntil(0.1) })][i % 2];
         scene.certified = i % 3 == 0;
         scene.resolution = [None, Some(1e-5)][i % 2];

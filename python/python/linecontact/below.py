@@ -33,7 +33,10 @@ def materials(contact: Contact) -> list[Below]:
     sides: tuple[Side, Side] = ("lower", "upper")
     for body, one in zip(sides, given, strict=False):
         parts = [("body", one, (0.0, math.inf))]
-        if isinstance(one, Layer):
+        if isinstance(one, Layer) and isinstance(one.base, Layer):
+            # Not known of several layers.
+            parts = []
+        elif isinstance(one, Layer):
             # A rigid layer is a rigid body.
             base = one.base if math.isfinite(one.material.youngs_modulus) else "bonded"
             # The interface itself belongs to the layer.

@@ -84,7 +84,7 @@ class Material(_Material):
 class _Layer(NamedTuple):
     material: Material
     thickness: float
-    base: Material | Rigid
+    base: Material | Layer | Rigid
 
 
 class Layer(_Layer):
@@ -96,9 +96,10 @@ class Layer(_Layer):
         Material of the layer.
     thickness : float
         Thickness of the layer: a length.
-    base : Material, "bonded" or "frictionless"
-        Material of the body below, to which the layer is bonded, or a rigid base: the layer is
-        bonded to it, or slides on it without friction and without lifting off.
+    base : Material, Layer, "bonded" or "frictionless"
+        Material of the body below, or another layer, to which the layer is bonded; or a rigid
+        base: the layer is bonded to it, or slides on it without friction and without lifting off.
+        Below several layers no stress is known, and no approach to a depth.
 
     Examples
     --------
@@ -110,14 +111,25 @@ class Layer(_Layer):
     >>> nip = lc.solve(lc.Flat(), cylinder, materials=(steel, cover), load=20.0)
     >>> round(nip.half_width, 3), round(nip.peak().pressure, 4)
     (13.011, 1.0555)
+
+    Carbon of 2 µm on nitride of 3 µm on steel:
+
+    >>> carbon, nitride = lc.Material(180e3, 0.25), lc.Material(280e3, 0.25)
+    >>> coated = lc.Layer(carbon, 2e-3, lc.Layer(nitride, 3e-3, steel))
+    >>> contact = lc.solve(lc.Flat(), lc.Parabola(10.0, (-1.0, 1.0)), materials=(coated, steel), load=10.0)
+    >>> round(1e3 * contact.half_width, 3)
+    33.323
     """
 
     __slots__ = ()
 
-    def __new__(cls, material: Sequence[float], thickness: float, base: Sequence[float] | Rigid) -> Layer:
+    def __new__(cls, material: Sequence[float], thickness: float, base: Sequence[float] | Layer | Rigid) -> Layer:
         """Creates the layer; refuses what is no material here, before any solve."""
         words = ("bonded", "frictionless")
-        below = cast("Rigid", one_of(base, "base", words)) if isinstance(base, str) else _material(base)
+        if isinstance(base, str):
+            below: Material | Layer | Rigid = cast("Rigid", one_of(base, "base", words))
+        else:
+            below = base if isinstance(base, Layer) else _material(base)
         length = as_number(thickness, "thickness")
         if not 0.0 < length < math.inf:
             says = f"the layer is {length:g} thick: its thickness must be positive and finite"
@@ -142,12 +154,20 @@ def _elastic(material: Sequence[float]) -> tuple[float, float] | None:
     return None if modulus == math.inf else (modulus, ratio)
 
 
+def _layers(given: Foundation) -> tuple[list[Layer], Sequence[float] | Rigid]:
+    """Returns the layers of a body from the surface down, and what is below them."""
+    layers, base = list[Layer](), cast("Any", given)
+    while isinstance(base, Layer):
+        layers.append(base)
+        base = base.base
+    return layers, base
+
+
 def _foundation(given: Foundation) -> tuple[Any, Any]:
-    """Returns the material at the surface, and thickness and base of the layer, if it is one."""
-    if not isinstance(given, Layer):
-        return _elastic(given), None
-    material, thickness, base = given
-    return _elastic(material), (thickness, base if isinstance(base, str) else _elastic(base))
+    """Returns material and thickness of the layers of a body, and their base."""
+    layers, base = _layers(given)
+    sheets = [(_elastic(layer.material), layer.thickness) for layer in layers]
+    return sheets, base if isinstance(base, str) else _elastic(base)
 
 
 def _both(materials: Sequence[Any]) -> Sequence[Any]:

@@ -29,6 +29,7 @@ from .contact import (
     Reference,
     References,
     _both,
+    _layers,
     _material,
     _wanted,
 )
@@ -196,13 +197,15 @@ def _read_material(value: Named) -> Material:
 
 
 def _read_foundation(value: Named) -> Foundation:
-    kind, layer = _named(value)
-    if kind != "layer":
+    kind, given = _named(value)
+    if kind not in ("layer", "stack"):
         return _read_material(value)
-    base = layer["base"]
-    if not isinstance(base, str):
-        base = _read_material(base["half_plane"])
-    return Layer(_read_material(layer["material"]), layer["thickness"], base)
+    base = given["base"]
+    below: Any = base if isinstance(base, str) else _read_material(base["half_plane"])
+    layers = given["layers"] if kind == "stack" else [(given["material"], given["thickness"])]
+    for material, thickness in reversed(layers):
+        below = Layer(_read_material(material), thickness, below)
+    return cast("Foundation", Material.rigid() if isinstance(below, str) else below)
 
 
 def _material_fields(given: Sequence[float]) -> Named:
@@ -211,11 +214,15 @@ def _material_fields(given: Sequence[float]) -> Named:
 
 
 def _foundation_fields(given: Foundation) -> Named:
-    if not isinstance(given, Layer):
-        return _material_fields(given)
-    base = given.base if isinstance(given.base, str) else {"half_plane": _material_fields(given.base)}
-    material = _material_fields(given.material)
-    return {"layer": {"material": material, "thickness": given.thickness, "base": base}}
+    layers, below = _layers(given)
+    if not layers:
+        return _material_fields(cast("Sequence[float]", given))
+    base = below if isinstance(below, str) else {"half_plane": _material_fields(below)}
+    sheets = [(_material_fields(layer.material), layer.thickness) for layer in layers]
+    if len(sheets) > 1:
+        return {"stack": {"layers": sheets, "base": base}}
+    [(material, thickness)] = sheets
+    return {"layer": {"material": material, "thickness": thickness, "base": base}}
 
 
 def _read_edge(value: Named) -> Edge:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from .below import Below, materials
-from .contact import Layer
+from .contact import _layers
 from .drawing import covered
 from .errors import HalfPlanesOnlyError, LineContactError, SingularError
 from .solution import ROUNDING, Solution, StressPeak, placed
@@ -82,6 +82,8 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
     """Solves a contact, and returns its numbers: NaN if they are not known, infinite at corners."""
     numbers, missing, each = dict.fromkeys(NUMBERS, math.nan), dict[str, None](), dict[str, dict[str, StressPeak]]()
     below = materials(scene.contact)
+    if any(len(_layers(one)[0]) > 1 for one in scene.contact._settings["materials"] or ()):
+        missing["the stress below several layers"] = None
     try:
         solution = scene.contact.solve(**control)
     except LineContactError as error:
@@ -114,6 +116,8 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
     def largest(name: str, of: Callable[[Below], StressPeak]) -> None:
         def found() -> StressPeak:
             peaks = {one.words: finite(one) for one in below}
+            if not peaks:
+                return StressPeak(math.nan, math.nan, math.nan)
             if peaks.keys() != {""}:
                 each[name] = peaks
             return peaks[_most(peaks)]
@@ -214,12 +218,11 @@ def sheet(scene: Scene, row: Row, yield_stress: float | None) -> str:
     pressure = units["pressure"]
     lines = [scene.title, "", _line("lower body", str(contact.lower)), _line("upper body", str(contact.upper))]
     for name, given in zip(("lower", "upper"), contact._settings["materials"] or (), strict=False):
-        if isinstance(given, Layer):
-            thick = f"{given.thickness:g} {units['length']}".rstrip()
-            lines.append(_line(f"{name} layer", f"{_elastic(given.material, pressure)}, {thick} thick"))
-            lines.append(_line(f"{name} base", _elastic(given.base, pressure)))
-        else:
-            lines.append(_line(f"{name} material", _elastic(given, pressure)))
+        layers, base = _layers(given)
+        for layer in layers:
+            thick = f"{layer.thickness:g} {units['length']}".rstrip()
+            lines.append(_line(f"{name} layer", f"{_elastic(layer.material, pressure)}, {thick} thick"))
+        lines.append(_line(f"{name} base" if layers else f"{name} material", _elastic(base, pressure)))
     lines += [_line("prescribed", described(row.control)), ""]
     for name, (kind, label) in NUMBERS.items():
         if label and not math.isnan(numbers[name]):
@@ -273,7 +276,7 @@ def _notes(row: Row, units: dict[str, str]) -> list[str]:
         (True, "checked", checked),
         (len(solution.intervals) > 1, "note", several),
         (bool(held), "note", f"held at x = {', '.join(held)}"),
-        (materials(solution.contact)[0].ratio is None, "note", "without materials Tresca is for Poisson's ratios from 1/4"),
+        (any(one.ratio is None for one in materials(solution.contact)), "note", "without materials Tresca is for Poisson's ratios from 1/4"),
         (len(row.missing) > 0, "not known of layers", ", ".join(row.missing)),
         *((found is not None, "note", words) for words in conform),
         *((True, "note", words) for words in _units_in_doubt([row])),

@@ -30,7 +30,7 @@ impl<T: Real> Quantity<T> for ByApproach<T> {
     }
 
     fn at(&self, found: &ContactState<T>, search: &mut ByLoad<'_, '_, '_, T>) -> Value<T> {
-        let at = Approaching::new(search.solved(found), Some(self.bodies), &self.references)?;
+        let at = Approaching::new(search.solved(found), Some(&self.bodies), &self.references)?;
         let [value, rate] = at.with_rate()?;
         Ok([value, rate, T::zero()])
     }

@@ -95,13 +95,15 @@ fn approaches_agree_with_a_direct_sum() {
     for (body, load, first, height) in
         [(parabola(6.0), 0.3, 0.0, 0.0), (crests(), 0.15, -0.95, first_height())]
     {
-        for bodies in pairs {
-            let solution = coated(&body, bodies[0], bodies[1]).solve(Control::Load(load)).unwrap();
+        for bodies in &pairs {
+            let [lower, upper] = bodies.clone();
+            let solution = coated(&body, lower, upper).solve(Control::Load(load)).unwrap();
             assert_eq!(solution.intervals().len(), if height == 0.0 { 1 } else { 2 });
             for x in [first, 0.1, 1.9] {
                 for reference in references {
                     let found = solution.approach(&to(x, reference)).unwrap();
-                    let exact = bodies.map(|of| approach(&solution, of, x, reference, None));
+                    let exact =
+                        bodies.each_ref().map(|of| approach(&solution, of, x, reference, None));
                     let size = exact[0].abs().max(exact[1].abs());
                     errors.push((found.lower - exact[0]) / size);
                     errors.push((found.upper - exact[1]) / size);
@@ -133,13 +135,15 @@ fn mean_planes_of_layers() {
         ],
     ];
     for bodies in pairs {
-        let contact = coated(&body, bodies[0], bodies[1]).period(PERIOD);
+        let [lower, upper] = bodies.clone();
+        let contact = coated(&body, lower, upper).period(PERIOD);
         let solution = contact.solve(Control::Load(0.03)).unwrap();
         assert_eq!(solution.intervals().len(), 3);
         let anywhere = Reference::Depth(1.0);
         for x in [solution.intervals()[1].centre(), solution.hull().left - 0.01] {
             let found = solution.approach(&to(x, anywhere)).unwrap();
-            let exact = bodies.map(|of| approach(&solution, of, x, anywhere, Some(PERIOD)));
+            let exact =
+                bodies.each_ref().map(|of| approach(&solution, of, x, anywhere, Some(PERIOD)));
             let gap = body.at(x).y - first - solution.gap_at(x).unwrap_or(0.0);
             for (found, exact) in [
                 (found.lower, exact[0]),
@@ -230,13 +234,14 @@ fn random_layers_agree_with_a_direct_sum() {
             [0.5 * x * x + height / (wave * wave) * cos, x - height / wave * sin]
         });
         let load = random.power_of_ten(-2.0, -0.3) / compliance;
-        let solution = coated(&body, bodies[0], bodies[1]).solve(Control::Load(load)).unwrap();
+        let [lower, upper] = bodies.clone();
+        let solution = coated(&body, lower, upper).solve(Control::Load(load)).unwrap();
         let depths = [0.01, random.uniform(), 1.0, 1.001, random.power_of_ten(0.0, 2.0)];
         let depths = depths.map(|depth| Reference::Depth(depth * one.thickness));
         for reference in depths.into_iter().chain([Reference::Length(20.0)]) {
             for x in [solution.hull().centre(), random.within(-4.0, 4.0)] {
                 let found = solution.approach(&to(x, reference)).unwrap();
-                let exact = bodies.map(|of| approach(&solution, of, x, reference, None));
+                let exact = bodies.each_ref().map(|of| approach(&solution, of, x, reference, None));
                 let size = exact[0].abs().max(exact[1].abs()).max(1e-3 * load * compliance);
                 errors.push((found.lower - exact[0]) / size);
                 errors.push((found.upper - exact[1]) / size);

@@ -1,7 +1,7 @@
 //! Eq. (1) by sums that share nothing with the solver but the pressures.
 
 use crate::integrals::{integral, strength};
-use linecontact::{Base, Cost, Foundation, Interval, Layer, Material, Reference, Solution};
+use linecontact::{Base, Cost, Foundation, Interval, Layer, Material, Reference, Solution, Stack};
 use std::f64::consts::PI;
 
 /// σz, τ, X, Z and σx at a depth z of a displacement `(iX, Z) exp(ix)` that solves Navier's
@@ -21,75 +21,119 @@ fn column(material: Material<f64>, s: f64, z: f64, k: usize) -> [f64; 5] {
         .map(|value| value * (s * z).exp())
 }
 
-/// Layer under a wave of pressure, with displacements matched at its base: six conditions, solved
-/// by elimination. Lengths are in units of 1/ω.
+/// Layers under a wave of pressure, with displacements matched at each base: four conditions a
+/// layer and two more, solved by elimination. Lengths are in units of 1/ω.
 struct Wave {
-    layer: Layer<f64>,
-    depth: f64,
+    /// Material, top and bottom of each layer.
+    layers: Vec<(Material<f64>, [f64; 2])>,
+    base: Base<f64>,
     unknowns: Vec<f64>,
 }
 
 const SOLUTIONS: [(f64, usize); 4] = [(-1.0, 0), (-1.0, 1), (1.0, 0), (1.0, 1)];
 
+/// A layer, or several.
+pub trait Layered {
+    fn stack(&self) -> Stack<f64>;
+
+    /// Thickness of the layer at the surface.
+    fn thickness(&self) -> f64 {
+        self.stack().layers[0].1
+    }
+}
+
+impl Layered for Layer<f64> {
+    fn stack(&self) -> Stack<f64> {
+        Stack { layers: vec![(self.material, self.thickness)], base: self.base }
+    }
+}
+
+impl Layered for Stack<f64> {
+    fn stack(&self) -> Stack<f64> {
+        self.clone()
+    }
+}
+
 impl Wave {
-    fn new(layer: &Layer<f64>, wavenumber: f64) -> Self {
-        let depth = wavenumber * layer.thickness;
-        let mut rows = vec![vec![0.0; 7]; 6];
-        let mut wave = Self { layer: *layer, depth, unknowns: Vec::new() };
-        for j in 0..SOLUTIONS.len() {
-            let (top, bottom) = (wave.own(j, 0.0), wave.own(j, depth));
-            let conditions = top[..2].iter().chain(&bottom[..4]);
-            rows.iter_mut().zip(conditions).for_each(|(row, value)| row[j] = *value);
+    fn new(of: &impl Layered, wavenumber: f64) -> Self {
+        let Stack { layers, base } = of.stack();
+        let next = |top: &mut f64, (material, thickness): (Material<f64>, f64)| {
+            let from = std::mem::replace(top, *top + wavenumber * thickness);
+            Some((material, [from, *top]))
+        };
+        let layers: Vec<_> = layers.into_iter().scan(0.0, next).collect();
+        let n = 4 * layers.len() + 2;
+        let mut rows = vec![vec![0.0; n + 1]; n];
+        let mut wave = Self { layers, base, unknowns: Vec::new() };
+        rows[0][n] = -1.0;
+        for (i, (_, [top, bottom])) in wave.layers.iter().enumerate() {
+            for j in 0..4 {
+                let (above, below) = (wave.own(i, j, *top), wave.own(i, j, *bottom));
+                let conditions = if i == 0 { &above[..2] } else { &above[..4] };
+                let first = if i == 0 { 0 } else { 4 * i - 2 };
+                let sign = if i == 0 { 1.0 } else { -1.0 };
+                for (row, value) in rows[first..].iter_mut().zip(conditions) {
+                    row[4 * i + j] = sign * value;
+                }
+                for (row, value) in rows[4 * i + 2..].iter_mut().zip(&below[..4]) {
+                    row[4 * i + j] = *value;
+                }
+            }
         }
-        rows[0][6] = -1.0;
-        match layer.base {
+        match base {
             Base::HalfPlane(base) => {
                 for k in 0..2 {
-                    let below = column(base, -1.0, depth, k);
+                    let below = column(base, -1.0, 0.0, k);
                     for i in 0..4 {
-                        rows[2 + i][4 + k] = -below[i] * depth.exp();
+                        rows[n - 4 + i][n - 2 + k] = -below[i];
                     }
                 }
             }
             // X = Z = 0, or τ = Z = 0; the stresses left are unknowns of their own.
             Base::Frictionless => {
-                (rows[2][4], rows[4][5]) = (1.0, 1.0);
+                (rows[n - 4][n - 2], rows[n - 2][n - 1]) = (1.0, 1.0);
             }
-            _ => (rows[2][4], rows[3][5]) = (1.0, 1.0),
+            _ => (rows[n - 4][n - 2], rows[n - 3][n - 1]) = (1.0, 1.0),
         }
         wave.unknowns = solved(rows);
         wave
     }
 
-    /// Solution of a number in the layer; those that grow are measured at the base.
-    fn own(&self, j: usize, z: f64) -> [f64; 5] {
-        let (s, k) = SOLUTIONS[j];
-        let scale = if s > 0.0 { (-self.depth).exp() } else { 1.0 };
-        column(self.layer.material, s, z, k).map(|value| scale * value)
+    /// Solution of a number in a layer; those that grow are measured at its bottom, the others at
+    /// its top.
+    fn own(&self, i: usize, j: usize, z: f64) -> [f64; 5] {
+        let ((material, [top, bottom]), (s, k)) = (self.layers[i], SOLUTIONS[j]);
+        let scale = if s > 0.0 { (top - bottom).exp() } else { 1.0 };
+        column(material, s, z - top, k).map(|value| scale * value)
     }
 
-    /// σz, τ, X, Z and σx at a depth, at the interface those of the layer.
+    /// σz, τ, X, Z and σx at a depth, at an interface those above it.
     fn at(&self, z: f64) -> [f64; 5] {
         let mut sum = [0.0; 5];
         let mut add = |unknown: f64, column: [f64; 5]| {
             sum.iter_mut().zip(column).for_each(|(sum, value)| *sum += unknown * value);
         };
-        match self.layer.base {
-            Base::HalfPlane(base) if z > self.depth => (0..2).for_each(|k| {
-                add(self.unknowns[4 + k] * self.depth.exp(), column(base, -1.0, z, k));
+        let last = self.layers.len() - 1;
+        let depth = self.layers[last].1[1];
+        match self.base {
+            Base::HalfPlane(base) if z > depth => (0..2).for_each(|k| {
+                add(self.unknowns[4 * last + 4 + k], column(base, -1.0, z - depth, k));
             }),
-            _ => (0..4).for_each(|j| add(self.unknowns[j], self.own(j, z))),
+            _ => {
+                let i = self.layers[..last].partition_point(|(_, [_, bottom])| *bottom < z);
+                (0..4).for_each(|j| add(self.unknowns[4 * i + j], self.own(i, j, z)));
+            }
         }
         sum
     }
 }
 
-/// Compliance K(ξ) of a layer.
-pub fn compliance(layer: &Layer<f64>, wavenumber: f64) -> f64 {
-    let Material::Elastic { youngs_modulus, poisson_ratio } = layer.material else {
+/// Compliance K(ω) of layers.
+pub fn compliance(of: &impl Layered, wavenumber: f64) -> f64 {
+    let Material::Elastic { youngs_modulus, poisson_ratio } = of.stack().layers[0].0 else {
         panic!("a rigid layer")
     };
-    let surface = Wave::new(layer, wavenumber).at(0.0)[3];
+    let surface = Wave::new(of, wavenumber).at(0.0)[3];
     surface * youngs_modulus / (1.0 - poisson_ratio * poisson_ratio) / 2.0
 }
 
@@ -109,9 +153,9 @@ fn solved(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
 }
 
 /// Longest length on which the compliance changes.
-fn length(layer: &Layer<f64>) -> f64 {
-    let at_zero = compliance(layer, 1e-6 / layer.thickness);
-    layer.thickness * at_zero.max(1.0)
+fn length(of: &impl Layered) -> f64 {
+    let all: f64 = of.stack().layers.iter().map(|(_, thickness)| thickness).sum();
+    all * compliance(of, 1e-6 / all).max(1.0)
 }
 
 /// Nodes of a contact with `P w` there (Gauss-Chebyshev), times π/n.
@@ -200,12 +244,12 @@ pub fn stresses(
 pub fn residual(
     solution: &Solution<'_, f64>,
     kappa: f64,
-    layers: &[(f64, Layer<f64>)],
+    layers: &[(f64, impl Layered)],
     period: Option<f64>,
     slope: impl Fn(f64) -> f64,
 ) -> f64 {
     // On a layer the pressure changes over its thickness.
-    let thinnest = layers.iter().map(|(_, layer)| layer.thickness).fold(f64::INFINITY, f64::min);
+    let thinnest = layers.iter().map(|(_, layer)| layer.thickness()).fold(f64::INFINITY, f64::min);
     let half_width = solution.intervals().iter().map(Interval::half_width).fold(0.0, f64::max);
     let nodes = 200 + 20 * (0.4 * half_width / thinnest) as usize;
     let loads = loads(solution, nodes);
@@ -237,13 +281,13 @@ pub fn residual(
 fn wavenumbers(
     loads: &[(usize, f64, f64)],
     hull: Interval<f64>,
-    layers: &[(f64, Layer<f64>)],
+    layers: &[(f64, impl Layered)],
     period: Option<f64>,
 ) -> Vec<(f64, [f64; 2])> {
     if layers.is_empty() {
         return Vec::new();
     }
-    let thinnest = layers.iter().map(|(_, layer)| layer.thickness).fold(f64::INFINITY, f64::min);
+    let thinnest = layers.iter().map(|(_, layer)| layer.thickness()).fold(f64::INFINITY, f64::min);
     let end = 16.0 / thinnest;
     let Some(period) = period else {
         let finest = layers.iter().map(|(_, layer)| 0.01 / length(layer));
@@ -268,12 +312,12 @@ fn transform(loads: &[(usize, f64, f64)], omega: f64) -> [f64; 2] {
 /// pressures, and the rest by a sum over wavenumbers.
 pub fn approach(
     solution: &Solution<'_, f64>,
-    body: Foundation<f64>,
+    body: &Foundation<f64>,
     x: f64,
     reference: Reference<f64>,
     period: Option<f64>,
 ) -> f64 {
-    let (material, layer) = match body {
+    let (material, layer) = match *body {
         Foundation::Layer(layer) => (layer.material, Some(layer)),
         Foundation::HalfPlane(material) => (material, None),
         _ => panic!("{body:?}"),

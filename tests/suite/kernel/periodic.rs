@@ -8,9 +8,9 @@ use crate::random_scenes::Dice;
 use crate::several_bench::{PERIODIC, Periodic, rough};
 use linecontact::profile::Piecewise;
 use linecontact::{
-    Base, Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, InputError, Material,
-    ParametricProfile, PlaneState, Reference, References, RegularKernel, Solution, SolveError,
-    Solver,
+    Base, Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, InputError, Layer,
+    Material, ParametricProfile, PlaneState, Reference, References, RegularKernel, Solution,
+    SolveError, Solver,
 };
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -235,7 +235,8 @@ fn rough_surfaces_meet_the_equation() {
         let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(1.0).period(1.0);
         let solution = contact.solve(Control::Load(load)).unwrap();
         assert_eq!(solution.intervals().len(), contacts);
-        let off = residual(&solution, PI / 2.0, &[], Some(1.0), |x| body.at(x).dy);
+        let none: [(f64, Layer<f64>); 0] = [];
+        let off = residual(&solution, PI / 2.0, &none, Some(1.0), |x| body.at(x).dy);
         let found = solution.peak().unwrap().pressure;
         println!("{most} {load}: residual {off:.1e}, peak {:.1e}", found / peak - 1.0);
         assert!(off < 1e-10 && (found / peak - 1.0).abs() < 1e-12);
