@@ -289,6 +289,21 @@ impl<T: Real> Survey<T> {
         tolerance: T,
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
+        let changes = self.refine_bodies(gap, wanted, tolerance, cost)?;
+        if changes {
+            self.join(gap);
+        }
+        Ok(changes)
+    }
+
+    /// Refines both bodies as [`refine_at`](Self::refine_at) does, without joining their points.
+    fn refine_bodies(
+        &mut self,
+        gap: &Gap<'_, T>,
+        wanted: [&[[T; 2]]; 2],
+        tolerance: T,
+        cost: &mut Cost,
+    ) -> Result<bool, ContactError<T>> {
         let mut changes = false;
         gap.check_watch(*cost, Interval { left: self.range[0], right: self.range[1] })?;
         for which in [Which::Lower, Which::Upper] {
@@ -298,9 +313,6 @@ impl<T: Real> Survey<T> {
             let found = body.refine(surface, self.range, spans, is_marked, &mut cost.heights);
             self.spent += cost.heights - before;
             changes |= found.map_err(|source| InputError::Profile { body: which, source })?;
-        }
-        if changes {
-            self.join(gap);
         }
         Ok(changes)
     }

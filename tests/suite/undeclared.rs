@@ -4,6 +4,7 @@
 
 use crate::common;
 use crate::integrals::edge_integrals;
+use crate::random_scenes::Dice;
 
 use approx::assert_relative_eq;
 use common::{assert_close, graph, join, limits_off, on_flat, reference};
@@ -135,6 +136,46 @@ fn a_parabola_with_a_kink_as_one_curve() {
         let (one, two) = (one.at(x).unwrap(), two.at(x).unwrap());
         assert_relative_eq!(one, two, epsilon = 0.0, max_relative = 1e-9);
     }
+}
+
+/// V grooves and ridges of three kinks, which panels are cut around until they are as narrow as
+/// rounding. (Between the last of them the slope fell unseen: tension was "checked".)
+#[test]
+fn grooves_and_ridges_of_kinks_as_one_curve() {
+    let mut refused = 0;
+    for seed in 0..60 {
+        let dice = &mut Dice::new(300 + seed);
+        let w = dice.within(0.013, 0.024);
+        let slope = dice.within(0.01, 0.05) * if seed % 2 == 0 { 1.0 } else { -1.0 };
+        let at = [0.0, dice.within(-0.075, 0.075), 0.03125, -0.05][seed as usize % 4];
+        // Its side: before and behind it, on its left and on its right flank.
+        let tooth = move |x: f64, side: f64| {
+            let height = if side == 0.0 { 0.0 } else { slope * (w - (x - at).abs()) };
+            [x * x / 20.0 + height, x / 10.0 + slope * side]
+        };
+        let solve = |body: &common::Profile| {
+            let contact = Contact::new(&Flat, &**body).unwrap().contact_modulus(1e5);
+            contact.solve(Control::Load(78.54)).map(|found| found.intervals().to_vec())
+        };
+        let parts =
+            [(-1.0, at - w, 0.0), (at - w, at, 1.0), (at, at + w, -1.0), (at + w, 1.0, 0.0)];
+        let part = |(from, to, side)| graph(from, to, move |x| tooth(x, side));
+        let exact = solve(&join(parts.map(part).into())).unwrap();
+        let whole = graph(-1.0, 1.0, move |x| {
+            let is_on = (x - at).abs() < w;
+            tooth(x, if is_on { -(x - at).signum() } else { 0.0 })
+        });
+        let Ok(found) = solve(&whole) else {
+            refused += 1;
+            continue;
+        };
+        assert_eq!(found.len(), exact.len(), "{seed}: {found:?} {exact:?}");
+        for (one, other) in found.iter().zip(&exact) {
+            let off = limits_off(*one, *other);
+            assert!(off < 1e-4 * other.half_width(), "{seed}: {found:?} {exact:?}");
+        }
+    }
+    assert!(refused <= 5, "{refused}");
 }
 
 #[test]

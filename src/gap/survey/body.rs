@@ -25,10 +25,6 @@ const MAX_WINDOWS: usize = 8;
 /// Number of series of a body after which no panel of it is refined: tens of megabytes.
 const MAX_SERIES: usize = 1 << 15;
 
-/// Number of series of a body after which, if the last one is unknown, its derivatives are checked:
-/// a kink takes some 50.
-const MANY_SERIES: usize = 100;
-
 /// Largest share of a panel that is cut out of it as a window; for a larger share it is halved.
 const LARGEST_WINDOW: f64 = 0.25;
 
@@ -298,8 +294,8 @@ impl<T: Real> Body<T> {
                     _ => break,
                 }
                 self.take_series(i, &piece, heights);
-                // A factor that X' and Y' share shows in no slope.
-                if self.series.len() == MANY_SERIES && !self.panels[i].doubt.is_finite() {
+                // A factor that X' and Y' share shows in no slope. A kink takes some 50 series.
+                if self.series.len() == MAX_SERIES >> 8 && !self.panels[i].doubt.is_finite() {
                     piece.check_factors(points)?;
                 }
                 from += count;

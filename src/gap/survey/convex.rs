@@ -170,8 +170,7 @@ impl<T: Real> Survey<T> {
             first -= 1;
         }
         let elsewhere = (0..first).chain(last..end);
-        let beyond = elsewhere.map(|i| self.floor(gap, i));
-        let beyond = beyond.fold(T::one() / T::zero(), |least, floor| least.min(floor));
+        let beyond = elsewhere.map(|i| self.floor(gap, i)).fold(T::one() / T::zero(), T::min);
         Stretch { nodes: [first, last], tilt: gap.tilt(), beyond }
     }
 

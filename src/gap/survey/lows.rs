@@ -150,8 +150,7 @@ impl<T: Real> Survey<T> {
     /// allowed for up to a share of all slopes: a larger allowance would hide waves.
     pub fn bulges(&self) -> bool {
         let slopes = self.nodes.iter().flat_map(|node| node.slopes);
-        let steepest = slopes.filter(|slope| slope.is_finite());
-        let steepest = steepest.fold(T::zero(), |most, slope| most.max(slope.abs()));
+        let steepest = slopes.filter(|a| a.is_finite()).map(|a| a.abs()).fold(T::zero(), T::max);
         let most = T::of(SHARE_OF_SLOPES) * steepest;
         let highest = self.nodes.iter().fold(T::zero(), |most, node| most.max(node.size));
         let cancelled = T::of(64.0) * T::epsilon() * highest;

@@ -234,17 +234,22 @@ impl<T: Real> Survey<T> {
         cost: &mut Cost,
     ) -> Result<bool, ContactError<T>> {
         let tolerance = T::of(MAX_AT_FOOT) * load;
-        for round in 0..MAX_ROUNDS {
+        let mut is_finer = false;
+        for _ in 0..MAX_ROUNDS {
             let mut marked = std::mem::take(&mut self.marked);
             marked[0].clear();
             marked[0].extend(stretches.iter().map(|stretch| stretch.x));
-            let refined = self.refine_at(gap, [&marked[0]; 2], tolerance, cost);
+            let refined = self.refine_bodies(gap, [&marked[0]; 2], tolerance, cost);
             self.marked = marked;
             if !refined? {
-                return Ok(round > 0);
+                break;
             }
+            is_finer = true;
         }
-        Ok(true)
+        if is_finer {
+            self.join(gap);
+        }
+        Ok(is_finer)
     }
 
     /// Lists the spans between points and contacts where the gap may be within reach of a load, and

@@ -194,9 +194,8 @@ impl<T: Real> Series<T> {
     /// Returns the largest rate of Y by k that may be mere rounding: a first estimate needs two
     /// digits.
     pub fn unknown_rate(&self) -> T {
-        let rates =
-            self.points().iter().zip(&self.rates).map(|(row, by_x)| (row.slope / *by_x).abs());
-        let largest = rates.fold(T::zero(), T::max);
+        let rate = |(row, by_x): (&BodyPoint<T>, &T)| (row.slope / *by_x).abs();
+        let largest = self.points().iter().zip(&self.rates).map(rate).fold(T::zero(), T::max);
         T::of(200.0 * SERIES_ROUNDING) * T::epsilon() * largest / (self.k[1] - self.k[0]).abs()
     }
 

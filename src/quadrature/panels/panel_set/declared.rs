@@ -34,7 +34,9 @@ impl<T: Real> PanelSet<T> {
             let allowed = T::of(MAX_FALL) * panel.error.max(panel.noise) + least;
             let [left, right] = if is_only { [T::zero(); 2] } else { panel.at_ends() };
             let at_seam = before.filter(|&(slope, open)| left + open + allowed < slope);
-            before = Some((right, allowed));
+            // A panel that is not resolved, as on a kink, leaves known what is before it.
+            let is_higher = |&(slope, open): &(T, T)| slope - open > right - allowed;
+            before = before.filter(is_higher).or(Some((right, allowed)));
             match at_seam {
                 Some((slope, _)) => Some(([panel.x[0]; 2], [slope, left])),
                 None if panel.fall > allowed => fall(panel, allowed),
