@@ -26,7 +26,7 @@ pub(crate) use bend::Bend;
 pub(crate) use correction::{Correction, Given, Kept, pressed, punch};
 pub(crate) use layers::Layers;
 pub(crate) use periodic::Periodic;
-pub(crate) use spread::{Spread, loads};
+pub(crate) use spread::{Spread, loads, series};
 pub(crate) use table::{Table, wavenumbers};
 
 use crate::{Interval, Real};

@@ -46,7 +46,7 @@ pub(super) fn places<T: Real>(on: Interval<T>, count: usize) -> impl Iterator<It
 }
 
 /// Returns the Chebyshev coefficients of a polynomial, given its values at the nodes.
-pub(super) fn series<T: Real>(values: &[T]) -> Vec<T> {
+pub(crate) fn series<T: Real>(values: &[T]) -> Vec<T> {
     let count = values.len();
     let cosines = cosines(count);
     let term = |k: usize| {

@@ -20,7 +20,7 @@ mod graded_rule;
 
 use super::potential::Potential;
 use super::solved::Solved;
-use crate::kernel::{Kernel, Spread, loads, terms};
+use crate::kernel::{Kernel, Spread, loads, series, terms};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::{ContactError, Ends, EvaluationError, Interval, Pressure, Real};
 use graded_rule::GradedRule;
@@ -184,9 +184,11 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         [some, most]: [usize; 2],
     ) -> Result<Vec<T>, ContactError<T>> {
         let mut count = some;
-        // As long as that costs less than integrals.
-        while count < 4 * most && self.contacts[contact].breakpoints.is_empty() {
-            if let Some(q) = self.smooth_coefficients(contact, count)? {
+        // As long as that costs less than integrals. Most breakpoints are kinks, but the pressure
+        // may be smooth where a period begins.
+        let is_smooth = self.contacts[contact].breakpoints.is_empty();
+        while count < if is_smooth { 4 * most } else { most } {
+            if let Some(q) = self.smooth_coefficients(contact, count) {
                 return Ok(q);
             }
             count *= 2;
@@ -196,29 +198,18 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
 
     /// Returns coefficients by the pressures at as many places (Gauss-Chebyshev), if the last of
     /// them vanish.
-    fn smooth_coefficients(
-        &self,
-        contact: usize,
-        count: usize,
-    ) -> Result<Option<Vec<T>>, ContactError<T>> {
+    fn smooth_coefficients(&self, contact: usize, count: usize) -> Option<Vec<T>> {
         let on = self.contacts[contact].on;
         let angle = |i: usize| T::pi() * (T::count(i) + T::of(0.5)) / T::count(count);
         let places: Vec<T> = (0..count).map(|i| on.at_angle(angle(i))).collect();
         let mut bounded = vec![T::zero(); count];
-        self.density.values(&places, &mut bounded)?;
-        let weight = |x: T| T::two_pi() / T::count(count) * on.chebyshev_weight(x);
+        self.density.values(&places, &mut bounded).ok()?;
+        let weight = |x: T| T::pi() * on.chebyshev_weight(x);
         bounded.iter_mut().zip(&places).for_each(|(value, &x)| *value *= weight(x));
-        let mut q = vec![T::zero(); count];
-        for (i, &value) in bounded.iter().enumerate() {
-            let z = angle(i).cos();
-            let mut pair = [value, value * z];
-            for q in &mut q {
-                *q += pair[0];
-                pair = [pair[1], (z + z) * pair[1] - pair[0]];
-            }
-        }
-        q[0] *= T::of(0.5);
+        let mut q = series(&bounded);
         let largest = |q: &[T]| q.iter().fold(T::zero(), |most, q| most.max(q.abs()));
+        // At a kink they may be infinite.
+        q.iter().all(|q| q.is_finite()).then_some(())?;
         let least = T::epsilon() * largest(&q);
         let [before, last] = [largest(&q[count - 8..count - 4]), largest(&q[count - 4..])];
         // Coefficients that fall no more are the noise of the pressures.
@@ -226,7 +217,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
             last >= T::of(0.25) * before && last <= T::of(COEFFICIENT_NOISE) * largest(&q);
         let vanish = is_noise || last <= T::of(64.0) * least;
         q.truncate(q.iter().rposition(|q| q.abs() > least).map_or(1, |last| last + 1));
-        Ok(vanish.then_some(q))
+        vanish.then_some(q)
     }
 
     fn all_coefficients(&self, contact: usize, count: usize) -> Result<Vec<T>, ContactError<T>> {

@@ -247,7 +247,8 @@ fn derivatives_that_are_wrong() {
         let error = Piece::checked(&body).map(|_| ()).unwrap_err();
         let ProfileError::Derivative { quantity, .. } = error else { panic!("{error}") };
         assert_eq!(quantity, name);
-        // Without that check the solver finds that slopes and heights disagree.
+        // Without that check the survey finds it after many series, or the solver finds that slopes
+        // and heights disagree.
         let error = solve(&body).unwrap_err();
         let ContactError::Input(InputError::Profile {
             source: ProfileError::Derivative { quantity, .. },
@@ -256,7 +257,7 @@ fn derivatives_that_are_wrong() {
         else {
             panic!("{error}")
         };
-        assert_eq!(quantity, "the slope Y'/X'");
+        assert!(quantity == name || quantity == "the slope Y'/X'", "{quantity}");
     }
 }
 
