@@ -62,7 +62,12 @@ pub(crate) fn series<T: Real>(values: &[T]) -> Vec<T> {
 /// Returns the cosines of all multiples of π/2n, from which those of all orders at the nodes are.
 fn cosines<T: Real>(count: usize) -> Vec<T> {
     let step = T::pi() / T::count(2 * count);
-    (0..4 * count).map(|j| (step * T::count(j)).cos()).collect()
+    let quarter: Vec<T> = (0..=count).map(|j| (step * T::count(j)).cos()).collect();
+    let cosine = |j: usize| match j.min(4 * count - j) {
+        j if j > count => -quarter[2 * count - j],
+        j => quarter[j],
+    };
+    (0..4 * count).map(cosine).collect()
 }
 
 /// Nodes of a Gauss-Chebyshev rule on an interval.

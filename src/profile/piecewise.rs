@@ -257,7 +257,7 @@ impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Piecewise<T, P> 
 fn how_to_part<T: Real>(ends: [T; 2], share: T) -> String {
     if ends.iter().all(|&x| endless(x).is_finite()) {
         format!(
-            "give them from left to right, or join them by Piecewise::with_tolerance, above {}",
+            "give them from left to right, or join them by Piecewise::with_tolerance, above {} of their extent",
             six(share)
         )
     } else {
@@ -297,7 +297,7 @@ pub enum PiecewiseError<T: Real> {
     /// Two neighbours do not meet: `x` between them belongs to neither.
     #[error(
         "gap of {} between pieces {breakpoint} and {} from the left: at x = {left} the one ends, at {right} \
-         the other starts; close it, or join them by Piecewise::with_tolerance, above {}",
+         the other starts; close it, or join them by Piecewise::with_tolerance, above {} of their extent",
         six(*right - *left), breakpoint + 1, six(*share), left = apart(*left, &[*right]), right = apart(*right, &[*left])
     )]
     Gap {
@@ -330,7 +330,7 @@ pub enum PiecewiseError<T: Real> {
     /// Two neighbours meet at different heights.
     #[error(
         "jump of {} between pieces {breakpoint} and {} from the left, at x = {x}: Y = {left} on its left, \
-         {right} on its right; move one of them, or join them by Piecewise::with_tolerance, above {}",
+         {right} on its right; move one of them, or join them by Piecewise::with_tolerance, above {} of their extent",
         six(*right - *left), breakpoint + 1, six(*share), x = six(*x), left = apart(*left, &[*right]),
         right = apart(*right, &[*left])
     )]

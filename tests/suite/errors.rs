@@ -5,7 +5,7 @@ use crate::common;
 
 use approx::assert_relative_eq;
 use common::{Counting, NanSafe, graph, on_flat, parabola};
-use linecontact::profile::{Line, Parabola, Placed, Placement};
+use linecontact::profile::{Line, Outline, Parabola, Placed, Placement};
 use linecontact::search::{Brent, SearchError, StoppingCriteria};
 use linecontact::{
     Attempt, Base, Body, Contact, ContactError, Control, Cost, Curve, CurvePoint, Edge,
@@ -446,6 +446,29 @@ fn a_step_of_the_heights() {
     let solution = Contact::new(&Flat, &*body).unwrap().solve(Control::Load(0.02)).unwrap();
     assert!(solution.cost().evaluations > 50);
     solution.certify().unwrap();
+}
+
+/// A flat that runs to an end of the bodies bears nothing there, unless the end is a corner.
+#[test]
+fn a_flat_up_to_an_end() {
+    let arc = Outline::from([-6.0, 0.0]).line(3.0).arc(80.0, 5.0);
+    let land =
+        Outline::from([-6.0, 0.0]).line(3.0).arc(30.0, 2.0).corner(0.8).fillet(0.5).line(1.0);
+    for (outline, load) in [(&arc, 1e-3), (&arc, 1e-5), (&land, 1e-3), (&land, 1e-5)] {
+        let body = outline.build().unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap();
+        let error = contact.solve(Control::Load(load)).unwrap_err();
+        let ContactError::Solve(SolveError::DomainTooShort { end, .. }) = error else {
+            panic!("{error}")
+        };
+        let text = error.to_string();
+        assert!(
+            end == -6.0 && text.contains("carry nothing") && text.contains("FreeUntil(-6"),
+            "{text}"
+        );
+        let solution = contact.edges(Edge::FreeUntil(-6.0), Edge::Free).solve(Control::Load(load));
+        assert_eq!(solution.unwrap().b(), 6.0);
+    }
 }
 
 /// Pieces that do not meet are refused at their joint, by a solve or by a certificate, however

@@ -70,7 +70,7 @@ def as_numbers(given: Any, name: str) -> FloatArray:
         count = np.sum(np.ma.getmaskarray(given))
         raise ValueError(f"{name} has {count} masked numbers: leave them out, or fill them")
     found = np.asarray(given)
-    if found.dtype.kind in "USb":
+    if given is None or found.dtype.kind in "USb":
         raise TypeError(f"{name} is {given!r}: give numbers")
     if found.dtype.kind == "c":
         raise TypeError(f"{name} has complex numbers: give real ones")

@@ -10,6 +10,7 @@
 use super::super::active_set::FIRST_CELLS;
 use super::super::capacity::Capacity;
 use super::super::edges::{Conditions, Given};
+use super::revise::is_lost;
 use super::{Contact, Search, Work, settle};
 use crate::quadrature::LoadCase;
 use crate::solution::{ContactState, Solved, largest_pressure};
@@ -69,12 +70,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let is_blind = self.contact.single_interval && self.turns();
         let lifts_off = matches!(error, ContactError::Solve(SolveError::LiftsOff { .. }));
         let is_nowhere = error.may_be_several() && !lifts_off;
-        let may_run_out = self.runs_out.is_some() || is_blind && is_nowhere;
+        let is_open = self.runs_out.is_none() && is_lost(&error);
+        let flat = if is_open { self.end_of_flat() } else { None };
+        let may_run_out = self.runs_out.is_some() || is_blind && is_nowhere || flat.is_some();
         if !may_run_out || self.end.is_some() {
             return Err(error);
         }
         let (ends, conditions) = (self.contact.ends(), self.conditions);
-        let borne = match self.end_touched_first() {
+        let borne = match self.end_touched_first().or(flat) {
             Some(side) => Some(Err(Capacity::nothing(ends[side]))),
             None => self.under_some_load(&conditions).or_else(|| {
                 let side = self.end_that_supports(conditions.at()?)?;
@@ -122,6 +125,18 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         let lowest = self.look().ok()?.lowest;
         Side::BOTH.into_iter().find(|&side| lowest == ends[side] && !at_corner[side])
+    }
+
+    /// Returns an end of the bodies, not declared to be a corner, that is as low as the lowest gap.
+    fn end_of_flat(&mut self) -> Option<Side> {
+        let (gap, ends, at_corner) = (&self.contact.gap, self.contact.ends(), self.corners());
+        if self.turns() {
+            return None;
+        }
+        let look = self.look().ok()?;
+        let heights = ends.map(|x| look.height(gap, gap.nearest(x)));
+        let lowest = look.height(gap, look.lowest);
+        Side::BOTH.into_iter().find(|&side| heights[side] <= lowest && !at_corner[side])
     }
 
     /// Returns the part of the load that the bodies bear, if it is not zero.

@@ -280,7 +280,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 }
 
 /// Tells whether a search has found nothing.
-fn is_lost<T: Real>(error: &ContactError<T>) -> bool {
+pub(super) fn is_lost<T: Real>(error: &ContactError<T>) -> bool {
     matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }))
 }
 
