@@ -105,7 +105,8 @@ class Pair:
     materials : (Material or Layer, Material or Layer)
         Materials of both.
     references : References
-        References of the approach; their x is counted from the origin of the upper body.
+        References of the approach; their x is counted from the origin of the upper body, and kept
+        within the bodies.
     plane : {"strain", "stress"}
         Plane state.
     resolution : float, optional
