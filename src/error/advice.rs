@@ -24,7 +24,7 @@ pub(super) fn place<T: Real>(x: T) -> Rounded {
 /// Tells which part of a load the bodies carry up to one of their ends, and the first remedies.
 pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, peak: T) -> String {
     let (x, asked) = (six(end), apart(load, &[carried]));
-    if carried.abs() <= T::of(16.0) * T::epsilon() * load.abs() {
+    if carried.abs() <= T::epsilon() * load.abs() {
         return format!(
             "the bodies touch first at their end x = {x}, and carry nothing of the load {asked}: extend the domain"
         );
