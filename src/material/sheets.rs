@@ -6,14 +6,14 @@
 //! f = (a + bζ) e^{-ζ} + (c + dη) e^{η}      ζ = ωy from its top, η = ωy from its bottom
 //! ```
 //!
-//! The tractions are f and f', the displacements, in units of 1/(2Gω), `V = (1 - ν)f''' - (2 - ν)f'`
-//! and `U = (1 - ν)f'' + νf`. With the compliance Y of what is below, the displacements there are Y
-//! times the tractions: so the waves c, d that rise from the bottom are a matrix times those that
-//! sink, which fall by `e^{-2ξ}` on their way down and up, with ξ = ωh. In units of 1/(2G), Y of the
-//! top of the layer is that of a half-plane and
+//! The tractions are f and f', the displacements, in units of 1/(2Gω), are
+//! `V = (1 - ν)f''' - (2 - ν)f'` and `U = (1 - ν)f'' + νf`. With the compliance Y of what is below,
+//! the displacements there are Y times the tractions: so the waves c, d that rise from the bottom
+//! are a matrix times those that sink, which fall by `e^{-2ξ}` on their way down and up, with
+//! `ξ = ωh`. In units of 1/(2G), Y of the top of the layer is that of a half-plane and
 //!
 //! ```text
-//! W = 4(1 - ν) [[-1, 0], [1, 1]] R (T₋ + T₊R)⁻¹      T₋ = [[1, 0], [-1, 1]],  T₊ = [[1, 0], [1, 1]]
+//! W = 4(1 - ν) [[-1, 0], [1, 1]] R (T₋ + T₊R)⁻¹     T₋ = [[1, 0], [-1, 1]], T₊ = [[1, 0], [1, 1]]
 //! ```
 //!
 //! with R the rising waves by the sinking ones at the top, and T the tractions of either. At the
