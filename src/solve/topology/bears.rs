@@ -127,16 +127,19 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Side::BOTH.into_iter().find(|&side| lowest == ends[side] && !at_corner[side])
     }
 
-    /// Returns an end of the bodies, not declared to be a corner, that is as low as the lowest gap.
+    /// Returns an end of the bodies, not declared to be a corner, up to which the lowest gap is flat:
+    /// its lowest place is elsewhere, and as low.
     fn end_of_flat(&mut self) -> Option<Side> {
         let (gap, ends, at_corner) = (&self.contact.gap, self.contact.ends(), self.corners());
         if self.turns() {
             return None;
         }
         let look = self.look().ok()?;
-        let heights = ends.map(|x| look.height(gap, gap.nearest(x)));
-        let lowest = look.height(gap, look.lowest);
-        Side::BOTH.into_iter().find(|&side| heights[side] <= lowest && !at_corner[side])
+        let is_flat = |x: T| {
+            let height = look.height(gap, gap.nearest(x));
+            x != look.lowest && height == look.height(gap, look.lowest)
+        };
+        Side::BOTH.into_iter().find(|&side| !at_corner[side] && is_flat(ends[side]))
     }
 
     /// Returns the part of the load that the bodies bear, if it is not zero.

@@ -29,16 +29,17 @@ impl<T: Real> PanelSet<T> {
     pub fn falls(&self) -> impl Iterator<Item = ([T; 2], [T; 2])> {
         let share = T::epsilon().sqrt().max(T::of(MAX_FALL) * self.tolerance);
         let least = share * self.size + T::of(MAX_FALL) * T::epsilon();
-        let (is_only, mut before) = (self.panels.len() == 1, None);
+        let is_only = self.panels.len() == 1;
+        let mut before: Option<([T; 2], T)> = None;
         self.panels.iter().filter_map(move |panel| {
             let allowed = T::of(MAX_FALL) * panel.error.max(panel.noise) + least;
             let [left, right] = if is_only { [T::zero(); 2] } else { panel.at_ends() };
-            let at_seam = before.filter(|&(slope, open)| left + open + allowed < slope);
+            let at_seam = before.filter(|([_, slope], open)| left + *open + allowed < *slope);
             // A panel that is not resolved, as on a kink, leaves known what is before it.
-            let is_higher = |&(slope, open): &(T, T)| slope - open > right - allowed;
-            before = before.filter(is_higher).or(Some((right, allowed)));
+            let is_higher = |&([_, slope], open): &([T; 2], T)| slope - open > right - allowed;
+            before = before.filter(is_higher).or(Some(([panel.x[1], right], allowed)));
             match at_seam {
-                Some((slope, _)) => Some(([panel.x[0]; 2], [slope, left])),
+                Some(([x, slope], _)) => Some(([x, panel.x[0]], [slope, left])),
                 None if panel.fall > allowed => fall(panel, allowed),
                 None => None,
             }
