@@ -127,8 +127,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Side::BOTH.into_iter().find(|&side| lowest == ends[side] && !at_corner[side])
     }
 
-    /// Returns an end of the bodies, not declared to be a corner, up to which the lowest gap is flat:
-    /// its lowest place is elsewhere, and as low.
+    /// Returns an end of the bodies, not declared to be a corner, up to which the lowest gap is
+    /// flat: its lowest place is elsewhere, and as low.
     fn end_of_flat(&mut self) -> Option<Side> {
         let (gap, ends, at_corner) = (&self.contact.gap, self.contact.ends(), self.corners());
         if self.turns() {
