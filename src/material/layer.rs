@@ -166,17 +166,14 @@ impl<T: Real> Foundation<T> {
             }
             layers.push((Elasticity::of(body, material, state)?, thickness));
         }
-        let mut below = match base {
-            Base::HalfPlane(below) => Elasticity::of(body, *below, state)?,
-            _ => Elasticity::of(body, Material::Rigid, state)?,
-        };
-        let mut slides = *base == Base::Frictionless;
         // A rigid layer is a rigid base, whatever is below it.
-        let is_rigid = |(of, _): &(Elasticity<T>, T)| of.compliance.is_zero();
-        if let Some(rigid) = layers.iter().position(is_rigid) {
-            (below, slides) = (Elasticity::of(body, Material::Rigid, state)?, false);
-            layers.truncate(rigid);
-        }
+        let rigid = layers.iter().position(|(of, _)| of.compliance.is_zero());
+        layers.truncate(rigid.unwrap_or(layers.len()));
+        let (below, slides) = match base {
+            Base::HalfPlane(below) if rigid.is_none() => (*below, false),
+            _ => (Material::Rigid, rigid.is_none() && *base == Base::Frictionless),
+        };
+        let below = Elasticity::of(body, below, state)?;
         let Some((surface, thickness)) = layers.first().cloned() else { return Ok(below) };
         let layer = Coating {
             thickness,

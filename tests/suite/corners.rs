@@ -243,3 +243,24 @@ fn a_limit_at_a_joint_is_free_unless_the_joint_is_a_corner() {
         }
     }
 }
+
+/// A tooth on one of four crests, whose tip makes the potential of its contact vaguer than its
+/// series tell. (The potentials left an overlap beside the tooth.)
+#[test]
+fn a_tooth_on_a_crest() {
+    let (w, slope, at) = (0.02108533334896626, -0.02779020308149826, 0.28);
+    let tooth = |from: f64, to: f64, side: f64| {
+        graph(from, to, move |x| {
+            let (sin, cos) = (2.0 * PI / 0.6 * x).sin_cos();
+            let height = if side == 0.0 { 0.0 } else { slope * (w - (x - at).abs()) };
+            let wave = [0.002 * (1.0 + cos), -0.002 * 2.0 * PI / 0.6 * sin];
+            [wave[0] + height, wave[1] + slope * side]
+        })
+    };
+    let parts = [(-1.0, at - w, 0.0), (at - w, at, 1.0), (at, at + w, -1.0), (at + w, 1.0, 0.0)];
+    let body = join(parts.map(|(from, to, side)| tooth(from, to, side)).into());
+    let contact = Contact::new(&Flat, &*body).unwrap().contact_modulus(1e5);
+    let solution = contact.solve(Control::Load(120.0)).unwrap();
+    assert_eq!(solution.intervals().len(), 5);
+    assert!(solution.certify().unwrap().is_proved());
+}

@@ -403,6 +403,18 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Beside { next, edge, room, near, blind, height, hidden, taken }
     }
 
+    /// Returns the uncertainty of the potentials in a region, as a height. On both of its sides the
+    /// gap is closed: what the potentials leave of it is their error.
+    fn doubt(&self, fields: &ExteriorFields<T>, from: &Beside<T>) -> T {
+        let Beside { next, room, height, taken, .. } = *from;
+        let doubt = fields.doubt_in(room) / self.kappa;
+        let several = self.panels.several().filter(|_| next > 0 && next < self.contacts.len());
+        several.map_or(doubt, |several| {
+            let rise = several.height(next, Side::Left) - height;
+            doubt.max((rise - (fields.potential(room.right) - taken) / self.kappa).abs())
+        })
+    }
+
     /// Judges an unloaded height, given its place and its uncertainty.
     fn verdict(&self, fields: &ExteriorFields<T>, from: &Beside<T>, at: [T; 3]) -> Verdict {
         let ([x, height, hidden], allowed) = (at, self.allowed(at[1], from.height));
@@ -411,7 +423,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             return Verdict::Apart;
         }
         // The series of the pressures leave this uncertain.
-        let doubt = fields.doubt_in(from.room) / self.kappa;
+        let doubt = self.doubt(fields, from);
         if gap - hidden >= -(allowed + doubt) {
             Verdict::Unresolved
         } else if gap + hidden >= -(allowed + doubt) {
@@ -456,7 +468,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
         let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
         let allowed = self.allowed(height, at_edge) + T::of(8.0) * (rise - due).abs();
-        let doubt = fields.doubt_in(from.room) / self.kappa;
+        let doubt = self.doubt(fields, from);
         let is_open = gap >= -(allowed + doubt) || !is_sound;
         Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
     }
