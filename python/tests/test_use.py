@@ -342,6 +342,13 @@ def test_like_layers_are_one() -> None:
     assert math.isclose(found.a, exact.a, rel_tol=1e-13)
     with pytest.raises(errors.HalfPlanesOnlyError, match="several layers"):
         found.max_shear(body="lower")
+    both = lc.Contact(FLAT, BODY, materials=(two, two))
+    solution = both.solve(load=0.1)
+    assert len(solution.plot().axes) == 2
+    with pytest.raises(ValueError, match="several layers"):
+        lc.explore(both, [0.1], "out.html")
+    with pytest.raises(ValueError, match="give poisson_ratio"):
+        solution.max_von_mises(body="lower")
 
 
 def test_a_layer_like_its_base_is_none_and_a_thin_one_a_row_of_springs() -> None:

@@ -64,7 +64,7 @@ def ratio_below(contact: Contact, body: Side | None, depths: tuple[float, float]
         and (body is None or one.body in (None, body))
         and (one.depths is None or (one.depths[0] < bottom and float(np.nextafter(top, math.inf)) < one.depths[1]))
     ]
-    if body is not None and found[0].body is None and contact._settings["materials"]:
+    if body is not None and found and found[0].body is None and contact._settings["materials"]:
         # Of two half-planes one is named: its own ratio.
         own = Material(*contact._settings["materials"][body == "upper"])
         meant = [own.poisson_ratio * (contact._settings["plane"] == "strain")]

@@ -333,10 +333,12 @@ def plot(solution: Solution, units: Sequence[str], given: Figure | None, slip: P
         grid = across[None, :], np.minimum(depth, deepest)[:, None]
         stress = solution.stress(*grid, body=body) if slip is None else slip.stress("lower", *grid)
         found.append((depth, stress.max_shear()))
-    for below, drawn, (body, _) in zip(shears, _draw_shears(shears, across, found, solution), of_each, strict=True):
+    # Below several layers no stress is known.
+    drawn_each = _draw_shears(shears, across, found, solution) if found else []
+    for below, drawn, (body, _) in zip(shears, drawn_each, of_each, strict=True):
         shear = f"largest shear in {body} body" if body else "largest shear"
         figure.colorbar(drawn, ax=below, label=f"{shear}{pressures}")
         below.invert_yaxis()
         below.set_ylabel(f"depth{lengths}")
-    shears[-1].set_xlabel(f"x{lengths}")
+    (shears or [pressure])[-1].set_xlabel(f"x{lengths}")
     return figure

@@ -344,9 +344,9 @@ def _below(contact: Contact, body: Side | None) -> tuple[Side | None, float]:
     if None in found:
         return None, found[None]
     coated = [one.body for one in materials(contact) if one.words.endswith("layer")]
-    chosen = body or next(iter(coated), None) or next(iter(found))
+    chosen = body or next(iter(coated), None) or next(iter(found), "lower")
     if chosen not in found:
-        raise ValueError(f"the {body} body is rigid: it has no shear")
+        raise ValueError(f"the {chosen} body is rigid, or has several layers: its shear is not known")
     return chosen, found[chosen]
 
 
