@@ -123,9 +123,8 @@ fn possible<'de, T: Real + Deserialize<'de>, D: Deserializer<'de>>(
 ) -> Result<Option<Stiffness<T>>, D::Error> {
     let scene =
         Scene { stiffness: Option::deserialize(file)?, ..Scene::new(Shape::Flat, Shape::Flat) };
-    let level = scene.contact();
-    let check = |contact: Contact<'_, T>| contact.check(Control::Load(T::one()));
-    level.and_then(check).map_err(de::Error::custom)?;
+    let checked = scene.contact().and_then(|contact| contact.check(Control::Load(T::one())));
+    checked.map_err(de::Error::custom)?;
     Ok(scene.stiffness)
 }
 
@@ -194,13 +193,14 @@ fn agreeing<'de, D: Deserializer<'de>>(file: D) -> Result<Units, D::Error> {
     for (label, quantity, powers) in [
         (length, "lengths", [1.0, 0.0]),
         (pressure, "pressures", [-2.0, 1.0]),
-        (load, "loads per length, such as N/mm", [-1.0, 1.0]),
+        (load, "loads per length, such as kN/mm", [-1.0, 1.0]),
     ] {
         if !label.is_empty() && size(label).is_none_or(|size| size[1..] != powers) {
-            let known = UNITS.map(|one| one.0).join(", ");
-            let says =
-                format!("{label} is no unit of {quantity}: known are {known}, with prefixes");
-            return Err(de::Error::custom(says));
+            // A load per length is of two units, a force and a length.
+            let is_of = |of: [f64; 2]| of == powers || (powers[0] == -1.0 && of[0] >= 0.0);
+            let of = UNITS.iter().filter(|one| is_of([one.2, one.3])).map(|one| one.0);
+            let says = format!("{label} is no unit of {quantity}: known are ");
+            return Err(de::Error::custom(says + &of.collect::<Vec<_>>().join(", ")));
         }
     }
     // Other powers of ten, or inches among them, are off by far more.

@@ -176,8 +176,8 @@ shape = { parabola = { radius = 1.0, domain = [-1.0, 1.0] } }
     [
         ("radius = 1.0", "radius = 0.0", 5, "upper.shape.parabola", "the radius is 0"),
         ("radius = 1.0", 'radius = "1"', 5, "upper.shape.parabola.radius", "string"),
-        ("flat", "flet", 3, "lower.shape", "unknown variant `flet`"),
-        ("contact_modulus", "modulus", 1, "stiffness", "unknown variant `modulus`"),
+        ("flat", "flet", 3, "lower.shape", "unknown name `flet`"),
+        ("contact_modulus", "modulus", 1, "stiffness", "unknown name `modulus`"),
         ('"flat"', '"flat', 3, "", "string"),
         ("stiffness", "stiffness = 1\nstiffness", 2, "", "duplicate key"),
         (

@@ -33,9 +33,18 @@ const CONTROLS: &str = "; a control is { load = F }, { half_width = L }, { peak_
     moment = M, about = x } }, { centre_of_pressure = { load = F, at = x } }, or { approach = { approach = d, \
     references = { x = x, lower = { depth = h }, upper = { disc = R } } } }";
 
+/// Words of Rust in the messages of its readers, and what stands in a file.
+#[rustfmt::skip]
+const WORDS: [(&str, &str); 7] = [
+    ("wanted exactly 1 element, ", "one name with a value is wanted: "), ("newtype variant", "a name with a value"),
+    ("unit variant", "a name alone"), ("unknown variant", "unknown name"), ("floating point", "number"),
+    ("expected f64", "expected a number"), ("struct variant Control::", "the table of "),
+];
+
 fn fault(line: Option<usize>, field: String, said: &str) -> SceneError {
+    let plain = WORDS.iter().fold(said.to_owned(), |said, (of, word)| said.replace(of, word));
     let forms = if field.starts_with("controls") { CONTROLS } else { "" };
-    SceneError { line, field, reason: format!("{said}{forms}") }
+    SceneError { line, field, reason: plain + forms }
 }
 
 /// Finds a number that is not finite, with the name and the place of it.

@@ -108,8 +108,12 @@ def highest(solution: Solution) -> float:
 
 def _infinite_at(solution: Solution) -> list[float]:
     """Returns limits of infinite pressure or tension, and the place of the largest pressure if it is infinite."""
-    limits = zip(solution.hull, solution.edge_singularities, strict=True)
-    found = [x for x, strength in limits if is_infinite(solution, strength)]
+    found = [
+        x
+        for one in solution.contacts()
+        for x, strength in zip(one.interval, one.edge_singularities, strict=True)
+        if is_infinite(solution, strength)
+    ]
     try:
         solution.peak()
     except SingularError as infinite:
@@ -178,12 +182,18 @@ def _draw_bodies(axes: Axes, x: FloatArray, heights: tuple[FloatArray, FloatArra
     axes.plot(x, upper, color="#08519c", label="upper body")
     axes.plot(x, lower, color="#a63603", label="lower body")
     axes.set_ylabel(f"y before loading{lengths}")
-    axes.legend(loc="best")
+    _name_lines(axes)
+
+
+def _name_lines(axes: Axes) -> None:
+    """Names the lines of the bodies below the picture, where the names cover none of them."""
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=4, frameon=False)
 
 
 def _title(solution: Solution, units: Sequence[str], slip: PartialSlip | None) -> str:
     """Returns contacts, load and largest pressure with their units."""
-    length, pressure, load = (f" {unit}" if unit else "" for unit in (*units, "")[:3])
+    # A load per length is a pressure times a length.
+    length, pressure, load = (f" {unit}" if unit else "" for unit in (*units, " ".join(reversed(units)))[:3])
     contacts, loaded = str(solution).splitlines()[:2]
     if (count := len(solution.intervals)) > 2:
         # All of them would be wider than the picture.
@@ -208,7 +218,7 @@ def _draw_points(axes: Axes, contact: Contact, up: float, tilt: float) -> None:
                 points[:, 0] = left + np.mod(points[:, 0] - left, after)
             x, y = points[(points[:, 0] >= left) & (points[:, 0] <= right)].T
             axes.plot(x, y + rise + turn * x, ".", color=color, markersize=3, label="measured")
-            axes.legend(loc="best")
+            _name_lines(axes)
 
 
 def measured(body: Body) -> FloatArray | None:
@@ -236,6 +246,7 @@ def _plot_apart(solution: Solution, lengths: str, given: Figure | None) -> Figur
     x = np.linspace(*covered(solution), 401)
     lower, upper = before_loading(contact, x)
     _draw_bodies(axes, x, (lower, upper + solution.separation), lengths)
+    axes.legend(loc="best")
     axes.set_title(str(solution).splitlines()[0])
     axes.set_xlabel(f"x{lengths}")
     return figure
