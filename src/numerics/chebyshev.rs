@@ -51,9 +51,6 @@ pub(crate) struct Table {
     transform: [[f64; MAX_SIZE]; MAX_SIZE],
     /// Share of the value at node j in the value at the right end.
     pub at_end: [f64; MAX_SIZE],
-    /// Share of the value at node j in the integral from the first node to node k, as
-    /// `in_rises[j][k]`.
-    in_rises: [[f64; MAX_SIZE]; MAX_SIZE],
 }
 
 static TABLES: LazyLock<[Table; SIZES.len()]> = LazyLock::new(|| SIZES.map(Table::new));
@@ -73,12 +70,6 @@ impl Table {
                 table.transform[j][k] = if k == 0 { 1.0 } else { 2.0 * cosine(k, j) } / n as f64;
             }
             table.at_end[j] = table.transform[j][..n].iter().sum();
-        }
-        for j in 0..n {
-            let integral = values(&primitive(&table.transform[j][..n])[..=n], &table.z);
-            for k in 0..n {
-                table.in_rises[j][k] = integral[k] - integral[0];
-            }
         }
         table.set_spacing(n);
         table
@@ -124,18 +115,6 @@ impl Table {
             let row = self.transform[j][..N].iter().zip(numbers);
             row.fold(T::zero(), |sum, (&share, &number)| fma(number, T::of(share), sum))
         })
-    }
-
-    /// Returns the integrals of the polynomial with these values at the nodes, from the first node
-    /// to each.
-    pub fn rises<T: Real>(&self, values: &[T]) -> Coeffs<T> {
-        let (n, mut rises) = (values.len(), [T::zero(); MAX_SIZE]);
-        for (&value, shares) in values.iter().zip(&self.in_rises) {
-            for (rise, &share) in rises[..n].iter_mut().zip(&shares[..n]) {
-                *rise = fma(value, T::of(share), *rise);
-            }
-        }
-        rises
     }
 
     /// Returns the larger of the last two coefficients, after the larger of the two before.
