@@ -41,8 +41,9 @@ pub(crate) enum Kept<T> {
 pub(crate) struct Correction<T> {
     /// Corrected pressures.
     pub spreads: Vec<Spread<T>>,
-    /// Largest ρ in the contacts, as a share of the largest part of Eq. (1).
-    pub residual: T,
+    /// Largest ρ in the contacts, as a share of the largest part of Eq. (1), in each component of
+    /// their numbers.
+    pub residuals: Vec<T>,
 }
 
 impl<T: Real> Correction<T> {
@@ -56,14 +57,14 @@ impl<T: Real> Correction<T> {
     ) -> Result<Option<Self>, T> {
         let loads = loads(kernel.distance(), &spreads);
         let sum = |of: usize, x: T| kernel.sums([of], x, &loads)[0];
-        let (mut places, mut largest, mut off) = (Vec::new(), T::zero(), T::zero());
+        let (zero, mut places) = (T::zero(), Vec::new());
+        let mut sizes = vec![[zero; 2]; T::COMPONENTS];
         for spread in &spreads {
             let on = spread.on;
             let mut place = Place::new(on, kernel.terms(on)[0]);
             let new: Vec<T> = place.between.iter().map(|&x| sum(0, x)).collect();
             let old = |x: T| bend.map_or(T::zero(), |bend| bend.slope(x));
-            let rho = new.iter().zip(&place.between).map(|(&new, &x)| new - old(x));
-            place.rho = rho.collect();
+            place.rho = new.iter().zip(&place.between).map(|(&new, &x)| new - old(x)).collect();
             // A comparison loses NaN, which a formula may have in its integral alone.
             let is_known = |(&x, &rho): (&T, &T)| {
                 rho.is_finite() && (kernel.formula.is_none() || sum(1, x).is_finite())
@@ -72,26 +73,27 @@ impl<T: Real> Correction<T> {
             if let Some((&x, _)) = each.find(|&at| !is_known(at)) {
                 return Err(x);
             }
-            let size = |row: &[T]| row.iter().fold(T::zero(), |most, a| most.max(a.abs()));
-            // The half-planes' part is about as large as the sum of the coefficients.
-            let half_planes = spread.q.iter().fold(T::zero(), |sum, q| sum + q.abs());
-            largest = largest.max(size(&new)).max(half_planes / on.half_width());
-            off = off.max(size(&place.rho));
+            for (part, [off, largest]) in sizes.iter_mut().enumerate() {
+                let size = |a: &T| a.component(part).abs();
+                let most = |row: &[T]| row.iter().map(size).fold(zero, T::max);
+                // The half-planes' part is about as large as the sum of the coefficients.
+                let half_planes = spread.q.iter().map(size).fold(zero, |sum, q| sum + q);
+                *largest = largest.max(most(&new)).max(half_planes / on.half_width());
+                *off = off.max(most(&place.rho));
+            }
             places.push(place);
         }
-        let residual = if largest > T::zero() { off / largest } else { off };
+        let share = |[off, largest]: [T; 2]| if largest > zero { off / largest } else { off };
+        let residuals = sizes.into_iter().map(share).collect();
         let system = System { kernel, places, kept };
-        let rises = system.gaps().map(|ends| {
-            let [from, to] =
-                ends.map(|x| sum(1, x) - bend.map_or(T::zero(), |bend| bend.height(x)));
-            to - from
-        });
+        let height = |x: T| sum(1, x) - bend.map_or(zero, |bend| bend.height(x));
+        let rises = system.gaps().map(|[from, to]| height(to) - height(from));
         let Some(change) = system.solve(rises.collect(), &[T::zero()]) else { return Ok(None) };
         for (spread, change) in spreads.iter_mut().zip(change) {
             spread.q.resize(spread.q.len().max(change.q.len()), T::zero());
             spread.q.iter_mut().zip(change.q).for_each(|(q, by)| *q += by);
         }
-        Ok(Some(Self { spreads, residual }))
+        Ok(Some(Self { spreads, residuals }))
     }
 }
 

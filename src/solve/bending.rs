@@ -166,6 +166,7 @@ fn from_last<'b, T: Real>(
         target,
         part: one,
         before,
+        of_rates: before,
         fault: None,
         reaches: None,
         has_cells: false,
@@ -233,8 +234,9 @@ struct Bending<'s, 'w, 'b, T: Real> {
     target: Vec<Spread<T>>,
     /// Part of the correction that is taken.
     part: T,
-    /// ρ from which this step began.
+    /// ρ from which this step began, and the last one of the derivatives.
     before: T,
+    of_rates: T,
     /// Error of the last solve that failed.
     fault: Option<ContactError<T>>,
     /// End of the bodies that cells reach.
@@ -279,7 +281,6 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         }
         self.cut()?;
         self.is_checked = self.kernel.row.is_some() || self.spreads.len() != 1;
-        let mut left = T::DERIVATIVE_ORDER;
         for _ in 0..MAX_SOLVES {
             let solved = match self.solve() {
                 Ok(solved) => solved,
@@ -288,13 +289,19 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                     continue;
                 }
             };
-            let Some(Correction { spreads, residual }) = self.correct(&solved)? else { break };
+            let Some(Correction { spreads, residuals }) = self.correct(&solved)? else { break };
+            let residual = residuals[0];
             if self.has_converged && spreads.len() != self.target.len() {
                 // The ρ that was reached is that of other contacts.
                 self.before = T::one() / T::zero();
             }
             let is_least = self.is_least(residual, solved.found.error);
-            if is_least && left == 0 {
+            // Derivatives converge like the values, but may have begun further off; those that are
+            // no numbers stay so.
+            let of_rates = residuals[1..].iter().copied().fold(T::zero(), T::max);
+            let gains = of_rates > rounding() && of_rates < T::of(STALLED) * self.of_rates;
+            self.of_rates = of_rates;
+            if is_least && !gains {
                 check_width(&self.kernel, solved.found.interval.half_width(), 1.0)?;
                 if solved.is_checked {
                     let error = solved.found.error.map(|error| error + residual);
@@ -306,7 +313,6 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 (self.is_checked, self.has_converged) = (true, true);
                 continue;
             }
-            left = if is_least { left.saturating_sub(1) } else { left };
             let falls = residual <= (T::one() - T::of(0.25) * self.part) * self.before;
             if !falls && !is_least {
                 self.less()?;
@@ -315,7 +321,8 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             // Each residual is about the square of the one before, times the same factor.
             let fall = residual / self.before;
             let next = if fall > T::zero() { residual * fall * fall } else { residual };
-            self.has_converged |= left == 0 && self.part == T::one() && next <= rounding();
+            let has_rates = T::DERIVATIVE_ORDER > 0;
+            self.has_converged |= !has_rates && self.part == T::one() && next <= rounding();
             // A check may have found other contacts than the one that was sought.
             self.is_checked = self.has_converged || !self.may_be_one || spreads.len() > 1;
             self.step_to(spreads, residual)?;

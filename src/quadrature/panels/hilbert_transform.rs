@@ -93,7 +93,8 @@ pub(super) struct Rounding<T> {
 impl<T: Real> Rounding<T> {
     /// Returns the thresholds where two series with these errors meet.
     pub fn between(self, [left, right]: [T; 2]) -> Self {
-        Self { kink: self.kink + T::of(64.0) * left.max(right), ..self }
+        let error = left.max(right);
+        Self { slope: self.slope + T::of(8.0) * error, kink: self.kink + T::of(64.0) * error }
     }
 }
 
