@@ -41,7 +41,7 @@ impl<'g, T: Real> Cells<'g, T> {
         &mut self,
         row: &PanelSet<T>,
         x: [T; N],
-    ) -> Result<[T; N], ContactError<T>> {
+    ) -> Result<([T; N], T), ContactError<T>> {
         row.heights(self.gap, x, &mut self.one.cost)
     }
 

@@ -455,8 +455,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             None => sampler.height(self.gap, self.gap.nearest(from.edge))?,
         };
         let gap = height - at_edge - (fields.potential(x) - from.taken) / self.kappa;
-        // If the formulas are all rounding, heights do not match the slopes on both sides, and
-        // prove nothing.
+        // If the formulas are all noise, heights do not match the slopes on both sides.
         let aside = T::epsilon().sqrt() * self.found.interval.half_width();
         let beside = self.gap.nearest(x + aside);
         let rise = sampler.height(self.gap, beside)? - height;
@@ -464,12 +463,16 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let slopes =
             sampler.slope_again(self.gap, beside) + sampler.slope_from(self.gap, x, Side::Right)?;
         let due = T::of(0.5) * slopes * (beside - x);
-        cost.heights += sampler.cost.evaluations;
-        let rounding = T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs());
+        // That of the heights of the bodies, of which the gap is the difference.
+        let rounding = T::of(64.0) * T::epsilon() * sampler.highest;
+        let mut allowed = self.allowed(height, at_edge) + rounding;
         let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
-        let allowed = self.allowed(height, at_edge) + T::of(8.0) * (rise - due).abs();
-        let doubt = self.doubt(fields, from);
-        let is_open = gap >= -(allowed + doubt) || !is_sound;
-        Ok(((!is_open).then_some([x, gap]), is_open && is_sound && gap < -allowed))
+        allowed += if is_sound { T::zero() } else { T::of(8.0) * (rise - due).abs() };
+        if !is_sound && gap < -allowed {
+            allowed += sampler.noise_of_height(self.gap, x)?;
+        }
+        cost.heights += sampler.cost.evaluations;
+        let is_open = gap >= -(allowed + self.doubt(fields, from));
+        Ok(((!is_open).then_some([x, gap]), is_open && gap < -allowed))
     }
 }

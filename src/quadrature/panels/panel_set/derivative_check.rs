@@ -162,14 +162,14 @@ impl<T: Real> PanelSet<T> {
         })
     }
 
-    /// Returns the heights of the gap of the bodies as described, at rising places; refuses heights
-    /// that contradict the slopes between them.
+    /// Returns the heights of the gap of the bodies as described, at rising places, and the largest
+    /// height of either body; refuses heights that contradict the slopes between them.
     pub fn heights<const N: usize>(
         &self,
         gap: &Gap<'_, T>,
         places: [T; N],
         cost: &mut Cost,
-    ) -> Result<[T; N], ContactError<T>> {
+    ) -> Result<([T; N], T), ContactError<T>> {
         let mut sampler = Sampler::default();
         let mut heights = [T::zero(); N];
         for (height, x) in heights.iter_mut().zip(places) {
@@ -186,7 +186,7 @@ impl<T: Real> PanelSet<T> {
             rises.compare_beside_noise(gap, &mut sampler)?;
         }
         cost.heights += sampler.cost.evaluations;
-        Ok(heights)
+        Ok((heights, sampler.highest))
     }
 }
 

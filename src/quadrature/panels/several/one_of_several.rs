@@ -51,9 +51,9 @@ pub(super) struct OneOfSeveral<T> {
     pub on: Interval<T>,
     /// Slope of the gap around the contact.
     pub panel_set: PanelSet<T>,
-    /// Place in the contact, the height of the gap there of the bodies as described, and the height
-    /// added by tilt and bend.
-    height: Option<[T; 3]>,
+    /// Place in the contact, the height of the gap there of the bodies as described, the largest
+    /// height of either body, and the height added by tilt and bend.
+    height: Option<[T; 4]>,
     /// Panels of `H`, the slope times `w p sqrt((x - α)(β - x))`, over the contact.
     panels: Vec<Panel<T>>,
     /// Spans still to be resolved, each with the number of its halvings.
@@ -126,20 +126,21 @@ impl<T: Real> OneOfSeveral<T> {
             self.panel_set.extend(gap, span)?;
         }
         self.panel_set.add(gap);
-        let [place, height] = match self.height {
-            Some([place, height, _]) => [place, height],
+        let [place, height, highest] = match self.height {
+            Some([place, height, highest, _]) => [place, height, highest],
             None => {
                 let places = [plain.centre(), plain.centre() + T::of(0.5) * plain.half_width()];
-                [places[0], self.height_at(gap, places)?]
+                let [height, highest] = self.height_at(gap, places)?;
+                [places[0], height, highest]
             }
         };
-        self.height = Some([place, height, gap.with_added(place, T::zero())]);
+        self.height = Some([place, height, highest, gap.with_added(place, T::zero())]);
         Ok(())
     }
 
-    /// Returns the height of the gap at the first of two places. If heights contradict the slopes,
-    /// probes for a narrow feature.
-    fn height_at(&mut self, gap: &Gap<'_, T>, places: [T; 2]) -> Result<T, ContactError<T>> {
+    /// Returns the height of the gap at the first of two places, and the largest height of either
+    /// body. If heights contradict the slopes, probes for a narrow feature.
+    fn height_at(&mut self, gap: &Gap<'_, T>, places: [T; 2]) -> Result<[T; 2], ContactError<T>> {
         loop {
             let mut cost = Cost::default();
             let heights = self.panel_set.heights(gap, places, &mut cost);
@@ -147,7 +148,7 @@ impl<T: Real> OneOfSeveral<T> {
             let may_hide =
                 matches!(heights, Err(ContactError::Input(InputError::InconsistentHeights { .. })));
             if !may_hide || !self.panel_set.probe(gap, self.on.plain())? {
-                return heights.map(|[height, _]| height);
+                return heights.map(|([height, _], highest)| [height, highest]);
             }
         }
     }
@@ -155,14 +156,15 @@ impl<T: Real> OneOfSeveral<T> {
     /// Returns the height of the gap at a place in the contact, or at its limits: one height of the
     /// bodies plus the integral of the slope from there.
     pub fn height(&self, x: T) -> T {
-        self.height.map_or(T::zero(), |[place, height, added]| {
+        self.height.map_or(T::zero(), |[place, height, _, added]| {
             height + added + rise(&self.panel_set.panels, place, x)
         })
     }
 
-    /// Returns the size of the terms in such a height.
+    /// Returns the size of the terms in such a height, of which those of the bodies may be far
+    /// larger than their difference.
     pub fn height_size(&self, height: T) -> T {
-        height.abs() + self.height.map_or(T::zero(), |[_, height, _]| height.abs())
+        height.abs() + self.height.map_or(T::zero(), |[_, _, highest, _]| highest)
     }
 
     /// Multiplies the slope by a weight, and prepares for the conditions on the limits. For a trial
