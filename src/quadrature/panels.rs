@@ -150,10 +150,11 @@ impl<T: Real> PanelIntegrator<T> {
         panel::spans(panel::within(panels, on), on)
     }
 
-    /// Tells whether the slope of the gap rises all over the only contact, up to a share of the
+    /// Tells whether the slope of the gap rises all over the only contact, up to a fall by the
     /// largest slope.
-    pub(crate) fn rises(&self, share: T) -> bool {
-        self.only().is_some_and(|(own, on)| edge_integrals::rise(&own.panels, on, share * own.size))
+    pub(crate) fn rises(&self, allowed: impl Fn(T) -> T) -> bool {
+        let only = self.only();
+        only.is_some_and(|(own, on)| edge_integrals::rise(&own.panels, on, allowed(own.size)))
     }
 
     /// Tells whether the slope of the gap falls somewhere on the panels of the only contact.

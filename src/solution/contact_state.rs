@@ -74,6 +74,13 @@ impl<T: Real> ContactState<T> {
         Self::rounding().max(self.open()).min(T::of(MAX_TOLERANCE))
     }
 
+    /// Returns the largest fall of the slope in one contact that counts as none, beside a steepest
+    /// slope: κ/π times it counts as zero beside the mean pressure.
+    pub fn least_fall(&self, kappa: T, steepest: T) -> T {
+        let mean = T::frac_pi_2() * self.load / (kappa * self.interval.half_width());
+        self.zero_tolerance() * steepest.min(mean)
+    }
+
     /// Tells whether the error of the limits exceeds all tolerances, so that no check can decide: a
     /// search has stopped early, or a quadrature is coarse.
     pub fn is_doubtful(&self) -> bool {

@@ -240,7 +240,8 @@ fn heights_that_do_not_go_with_the_slopes() {
         else {
             panic!("{share}: {error}")
         };
-        assert!((by_heights / by_slopes / share - 1.0).abs() < 1e-9, "{by_heights} {by_slopes}");
+        // Over a short span: the slopes are known to the panels' error.
+        assert!((by_heights / by_slopes / share - 1.0).abs() < 1e-7, "{by_heights} {by_slopes}");
     }
 }
 

@@ -130,17 +130,16 @@ impl<T: Real> OneOfSeveral<T> {
             Some([place, height, highest, _]) => [place, height, highest],
             None => {
                 let places = [plain.centre(), plain.centre() + T::of(0.5) * plain.half_width()];
-                let [height, highest] = self.height_at(gap, places)?;
-                [places[0], height, highest]
+                self.height_at(gap, places)?
             }
         };
         self.height = Some([place, height, highest, gap.with_added(place, T::zero())]);
         Ok(())
     }
 
-    /// Returns the height of the gap at the first of two places, and the largest height of either
-    /// body. If heights contradict the slopes, probes for a narrow feature.
-    fn height_at(&mut self, gap: &Gap<'_, T>, places: [T; 2]) -> Result<[T; 2], ContactError<T>> {
+    /// Returns the first of two places, the height of the gap there, and the largest height of
+    /// either body. If heights contradict the slopes, probes for a narrow feature.
+    fn height_at(&mut self, gap: &Gap<'_, T>, places: [T; 2]) -> Result<[T; 3], ContactError<T>> {
         loop {
             let mut cost = Cost::default();
             let heights = self.panel_set.heights(gap, places, &mut cost);
@@ -148,7 +147,7 @@ impl<T: Real> OneOfSeveral<T> {
             let may_hide =
                 matches!(heights, Err(ContactError::Input(InputError::InconsistentHeights { .. })));
             if !may_hide || !self.panel_set.probe(gap, self.on.plain())? {
-                return heights.map(|([height, _], highest)| [height, highest]);
+                return heights.map(|([height, _], highest)| [places[0], height, highest]);
             }
         }
     }
