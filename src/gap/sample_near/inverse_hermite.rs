@@ -16,8 +16,7 @@ pub(super) struct InverseHermite<'k, T> {
 
 impl<'k, T: Real> InverseHermite<'k, T> {
     pub fn new(left: &'k CurveSample<T>, right: &'k CurveSample<T>) -> Self {
-        let width = right.x - left.x;
-        let rise = right.k - left.k;
+        let (width, rise) = (right.x - left.x, right.k - left.k);
         let (at_left, at_right) = (width / left.dx, width / right.dx);
         let three = T::of(3.0) * rise.abs();
         let even = |slope: T| slope * rise > T::zero() && slope.abs() <= three;

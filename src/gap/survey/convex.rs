@@ -121,18 +121,14 @@ impl<T: Real> Survey<T> {
     fn level_reached(&self, gap: &Gap<'_, T>, on: Interval<T>, load: T) -> T {
         let [from, to] = self.range;
         let farthest = (on.right - from).max(to - on.left);
-        let half = T::of(0.5);
-        let mean = half * self.chord_at(gap, on.left) + half * self.chord_at(gap, on.right);
+        // On the chords between the points around the limits.
+        let height = |x: T| {
+            let [before, after] = self.around(x);
+            let share = (x - before.x) / (after.x - before.x);
+            gap.turned(x, before.height + share * (after.height - before.height))
+        };
+        let mean = T::of(0.5) * (height(on.left) + height(on.right));
         mean + load * ((farthest + farthest) / on.half_width()).ln()
-    }
-
-    /// Returns the height at x of the chord between the points around it.
-    fn chord_at(&self, gap: &Gap<'_, T>, x: T) -> T {
-        let after = self.nodes.partition_point(|node| node.x < x);
-        let after = after.max(1).min(self.nodes.len() - 1);
-        let [before, after] = [&self.nodes[after - 1], &self.nodes[after]];
-        let share = (x - before.x) / (after.x - before.x);
-        gap.turned(x, before.height + share * (after.height - before.height))
     }
 
     pub(super) fn is_untouched_beyond(
@@ -157,8 +153,7 @@ impl<T: Real> Survey<T> {
 
     /// Finds the longest stretch around the middle of an interval on which the gap is convex.
     fn stretch_around(&self, gap: &Gap<'_, T>, on: Interval<T>) -> Stretch<T> {
-        let end = self.nodes.len() - 1;
-        let centre = on.centre();
+        let (end, centre) = (self.nodes.len() - 1, on.centre());
         let start = self.nodes.partition_point(|node| node.x <= centre).max(1) - 1;
         let convex = |i: usize| self.shape_after(i) == Shape::Convex;
         let kinks_up = |i: usize| !self.nodes[i].falls();
@@ -201,8 +196,7 @@ impl<T: Real> Survey<T> {
         open.iter_mut().for_each(Vec::clear);
         for (i, pair) in self.nodes.windows(2).enumerate() {
             let [from, to] = [pair[0].x, pair[1].x];
-            let is_touched = from < on.right && on.left < to;
-            let shape = self.shape_after(i);
+            let (is_touched, shape) = (from < on.right && on.left < to, self.shape_after(i));
             if shape == Shape::Convex && !pair[0].falls()
                 || !is_touched && self.floor(gap, i) >= level
             {

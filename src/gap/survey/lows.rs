@@ -63,9 +63,14 @@ impl<T: Real> Survey<T> {
         upper - lower
     }
 
-    /// Returns the height of the gap at x, of bodies that are not turned.
+    /// Returns the height of the gap at x, of bodies that are not turned. Where the gap bulges, its
+    /// points leave less room than a vague series takes.
     pub fn height(&self, gap: &Gap<'_, T>, x: T) -> T {
-        self.height_as_described(x) + gap.bend_at([1], x)[0]
+        let height = self.height_as_described(x) + gap.bend_at([1], x)[0];
+        let doubts = self.bodies.iter().map(|body| body.panels[body.panels_at(x)[1]].doubt);
+        let (room, doubt) = (self.around(x)[0].after, doubts.fold(T::zero(), |sum, a| sum + a));
+        let [by_points, _] = if room < doubt { self.near(x) } else { [height; 2] };
+        if (height - by_points).abs() > room { by_points } else { height }
     }
 
     /// Returns the uncertainty of the height at x, including the rounding of x.
@@ -202,10 +207,15 @@ impl<T: Real> Survey<T> {
 
     /// Returns the approximate height and slope of the gap at x, from the points around it.
     pub(super) fn near(&self, x: T) -> [T; 2] {
+        let [from, to] = self.around(x);
+        let segment = segment(from, to);
+        segment.at(((x - from.x) / segment.width).max(T::zero()).min(T::one()))
+    }
+
+    /// Returns the points before and after x, or the two that are nearest to it.
+    pub(super) fn around(&self, x: T) -> [&Node<T>; 2] {
         let after = self.nodes.partition_point(|node| node.x <= x).max(1).min(self.nodes.len() - 1);
-        let segment = segment(&self.nodes[after - 1], &self.nodes[after]);
-        let t = (x - self.nodes[after - 1].x) / segment.width;
-        segment.at(t.max(T::zero()).min(T::one()))
+        [&self.nodes[after - 1], &self.nodes[after]]
     }
 
     /// Returns the approximate load for a prescribed quantity, as F/κ: of a round body the gap at

@@ -263,8 +263,7 @@ impl<T: Real> Survey<T> {
     ) {
         found.clear();
         // Before first touch nothing is near a contact.
-        let ends = contacts.first().zip(contacts.last());
-        let infinite = T::one() / T::zero();
+        let (ends, infinite) = (contacts.first().zip(contacts.last()), T::one() / T::zero());
         let hull = ends.map_or(infinite, |(on, last)| T::of(0.5) * (last.right - on.left));
         let nodes = self.nodes.iter().map(|node| [node.x, node.height]);
         let limits = contacts.iter().map(|on| on.left).chain([self.lowest]);
