@@ -258,6 +258,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         workspace.look.refine(gap, asked_by(conditions), T::of(MAX_CELL_UNCERTAINTY), cost)?;
         let Workspace { look, newton, cell_work, .. } = &mut **workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
+        let half_width = T::of(0.5) * (right - left);
+        let nothing = SolveError::NoEquilibrium { half_width, near: look.lowest }.into();
+        // By heights that are known no better no cell is right.
+        if load.abs() < kappa * look.doubt_at(look.lowest) {
+            return Err(nothing);
+        }
         let (turned, range) = (look.heights(gap), [left, right]);
         let (at, known, start) = (conditions.at(), &turned[..], &newton.on[..]);
         let (watch, kernel) = (&|| gap.check_watch(**cost, Interval { left, right }), None);
@@ -265,10 +271,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let mut height = |x: T| Ok(gap.turned(x, look.height(gap, gap.nearest(x))));
         active_set(&scene, cell_work, &mut height).map_err(|error| match error {
             NotFound::Height(error) => error,
-            _ => ContactError::Solve(SolveError::NoEquilibrium {
-                half_width: T::of(0.5) * (right - left),
-                near: look.lowest,
-            }),
+            _ => nothing,
         })
     }
 
