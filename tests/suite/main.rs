@@ -95,6 +95,7 @@ mod several_quantities;
 mod several_solved;
 mod shapes;
 mod signorini;
+mod small_gaps;
 mod solver;
 mod spline;
 mod spring;
