@@ -267,9 +267,12 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Sets the conditions at the left edge, -b, and at the right edge, a. Default: [`Edge::Free`].
+    /// A place beyond an end of the bodies by a few roundings is that end.
     #[must_use]
     pub fn edges(self, left: Edge<T>, right: Edge<T>) -> Self {
-        Self { edges: Ends { left, right }, edge_pressure: None, ..self }
+        let ends = Ends::from(self.gap.range());
+        let edges = Ends { left, right }.zip(ends).map(|(edge, end)| edge.moved_to(end));
+        Self { edges, edge_pressure: None, ..self }
     }
 
     /// Prescribes the pressure at given distances from the limits: the paper's Eq. (6), in place of
@@ -477,6 +480,9 @@ impl<'b, T: Real> Contact<'b, T> {
     pub(crate) fn checked_edges(&self) -> Result<Ends<Edge<T>>, ContactError<T>> {
         let range = self.gap.range();
         let Ends { left, right } = self.corners(range);
+        if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = self.edges {
+            check(Interval { left, right })?;
+        }
         for edge in self.edges {
             match edge {
                 Edge::Adhesive(work) if !(work.is_finite() && work >= T::zero()) => {
@@ -486,17 +492,10 @@ impl<'b, T: Real> Contact<'b, T> {
                     let interval = Interval { left, right };
                     return Err(InputError::InvalidLimits { interval }.into());
                 }
+                Edge::Fixed(x) | Edge::FreeUntil(x) if !(x >= range[0] && x <= range[1]) => {
+                    return Err(SolveError::OutsideBodies { x, range }.into());
+                }
                 _ => {}
-            }
-        }
-        if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = self.edges {
-            check(Interval { left, right })?;
-        }
-        for edge in self.edges {
-            if let Edge::Fixed(x) | Edge::FreeUntil(x) = edge
-                && !(x >= range[0] && x <= range[1])
-            {
-                return Err(SolveError::OutsideBodies { x, range }.into());
             }
         }
         Ok(self.edges)

@@ -45,6 +45,19 @@ impl<T: Real> Edge<T> {
         }
     }
 
+    /// Moves a place that is an end of the bodies but for rounding to that end.
+    pub(crate) fn moved_to(self, end: T) -> Self {
+        let moved = |x: T| {
+            let (off, rounding) = ((x - end).component(0), T::of(8.0) * T::epsilon() * x.abs());
+            if off.abs() <= rounding { x - off } else { x }
+        };
+        match self {
+            Self::Fixed(x) => Self::Fixed(moved(x)),
+            Self::FreeUntil(x) => Self::FreeUntil(moved(x)),
+            edge => edge,
+        }
+    }
+
     /// Turns a fixed corner into one that the contact need not reach.
     pub(crate) fn let_go(self) -> Self {
         if let Self::Fixed(x) = self { Self::FreeUntil(x) } else { self }

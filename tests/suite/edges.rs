@@ -322,6 +322,19 @@ fn adhesion_of_no_work_is_none() {
     }
 }
 
+/// 0.1 + 0.2 is more than 0.3.
+#[test]
+fn an_edge_at_an_end_but_for_rounding_is_at_the_end() {
+    let body = linecontact::profile::Parabola::new(1.0, [-3.0, 0.3]).unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(1.0);
+    for edge in [Edge::Fixed, Edge::FreeUntil] {
+        let solve = |x| contact.clone().edges(Edge::Free, edge(x)).solve(Control::Load(0.1));
+        let [exact, rounded] = [0.3, 0.1 + 0.2].map(|x| solve(x).unwrap());
+        assert_eq!(rounded.intervals(), exact.intervals());
+        assert_eq!(rounded.a(), 0.3);
+    }
+}
+
 #[test]
 fn edges_beyond_the_bodies_are_named() {
     let contact = on_flat(parabola(1.0));

@@ -285,3 +285,30 @@ fn a_piece_that_bends_away_at_both_ends_is_no_noise() {
     let found = peak(&[-3.0, -1.0, 0.0, 1.0, 3.0]);
     assert!((found / known - 1.0).abs() < 1e-8, "{found} for {known}");
 }
+
+/// Gaussian crests far from a contact that reach the other body, on a parabola: by their full width
+/// at half height, as a share of the length of the bodies. The survey of a body sees those of a
+/// twentieth and more wherever they are; `certify` finds the others.
+#[test]
+fn far_crests_of_a_twentieth_of_the_bodies_are_seen() {
+    let mut dice = Dice::new(11);
+    for width in [0.01, 0.02, 0.03, 0.04, 0.05, 0.07] {
+        let mut missed = 0;
+        for i in 0..100 {
+            let load = 10f64.powf(dice.within(-3.0, -1.5));
+            let place = dice.within(0.9, 2.7) * if i % 2 == 0 { 1.0 } else { -1.0 };
+            let height = 0.5 * place * place - dice.within(-1.0, 0.3) * load;
+            let sigma = 6.0 * width / (8.0 * 2f64.ln()).sqrt();
+            let body = Curve::new([-3.0, 3.0], move |x: f64| {
+                let s = (x - place) / sigma;
+                let crest = height * (-0.5 * s * s).exp();
+                CurvePoint { x, y: 0.5 * x * x - crest, dx: 1.0, dy: x + crest * s / sigma }
+            });
+            let contact = Contact::new(&Flat, &body).unwrap().kappa(1.0);
+            let found = contact.solve(Control::Load(load)).unwrap();
+            missed += u32::from(found.certify().is_err());
+        }
+        println!("{:.0} %: {missed} of 100 missed", 100.0 * width);
+        assert!(width < 0.05 || missed == 0, "{width}: {missed}");
+    }
+}
