@@ -652,6 +652,10 @@ def test_titles_show_load_and_peak_with_units() -> None:
     assert first.startswith("contact [") and first.endswith(" mm")
     assert second.startswith("load 0.01 N/mm, largest pressure ") and " MPa at x = " in second and second.endswith(" mm")
     slip = lc.Contact(FLAT, BODY, kappa=1.0).partial_slip(friction=0.4, force=0.003, load=0.01)
+    # Lengths and pressures make the unit of loads.
+    for units, load in ((("mm", "MPa"), "N/mm"), (("mm", "GPa"), "GPa mm"), (("", ""), "")):
+        words = f"\nload 0.01 {load}".rstrip() + ", largest"
+        assert words in solution.plot(units=units).axes[0].get_title()
     assert "load 0.01 N/mm, force 0.003 N/mm\nlargest" in slip.plot(units=("mm", "MPa", "N/mm")).axes[0].get_title()
     waves = lc.Curve((-1.0, 1.0), lambda k: (k, -0.01 * np.cos(9 * np.pi * k), 1.0, 0.09 * np.pi * np.sin(9 * np.pi * k)))
     figure = lc.solve(FLAT, waves, kappa=1.0, load=0.001).plot(units=("mm", "MPa", "N/mm"))

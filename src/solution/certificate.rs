@@ -146,7 +146,7 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     balanced(kappa, found, &several, &mut system, doubt)?;
     let steepest = slopes.iter().map(steepest).fold(T::zero(), T::max);
     let rises = |fall| rises_over(&several.panel_set(0).panels, contacts[0], fall);
-    let is_plain = contacts.len() == 1 && rises(found.least_fall(kappa, steepest));
+    let is_plain = contacts.len() == 1 && rises(found.negligible_fall(kappa, steepest));
     let pressure = match is_plain || adhesive != Ends::both(false) {
         true => None,
         false => {

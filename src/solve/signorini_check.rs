@@ -181,7 +181,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let is_same = |(one, other): (&Interval<T>, &Interval<T>)| one.is_same(other);
         let is_pressed = self.pressed.len() == self.contacts.len()
             && self.pressed.iter().zip(self.contacts).all(is_same);
-        let allowed = |steepest: T| self.found.least_fall(self.kappa, steepest);
+        let allowed = |steepest: T| self.found.negligible_fall(self.kappa, steepest);
         if adhesive || is_pressed || self.panels.rises(allowed) {
             return Ok(None);
         }

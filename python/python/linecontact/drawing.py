@@ -42,6 +42,9 @@ _COLUMNS = 48
 
 _WIDTH, _HEIGHT, _MARGIN = 320, 150, 24
 
+# Units of lengths and pressures, and what their product is called.
+_PRODUCTS = {("mm", "MPa"): "N/mm", ("m", "Pa"): "N/m", ("in", "psi"): "lbf/in"}
+
 
 def svg(solution: Solution) -> str:
     """Draws the pressure over x, with the limits, the load and the largest pressure."""
@@ -193,7 +196,8 @@ def _name_lines(axes: Axes) -> None:
 def _title(solution: Solution, units: Sequence[str], slip: PartialSlip | None) -> str:
     """Returns contacts, load and largest pressure with their units."""
     # A load per length is a pressure times a length.
-    length, pressure, load = (f" {unit}" if unit else "" for unit in (*units, " ".join(reversed(units)))[:3])
+    product = _PRODUCTS.get((units[0], units[1]), f"{units[1]} {units[0]}".strip())
+    length, pressure, load = (f" {unit}" if unit else "" for unit in (*units, product)[:3])
     contacts, loaded = str(solution).splitlines()[:2]
     if (count := len(solution.intervals)) > 2:
         # All of them would be wider than the picture.

@@ -76,6 +76,11 @@ class RollerState(NamedTuple):
     half_contacts: FloatArray
     pressures: FloatArray
 
+    def __repr__(self) -> str:
+        """Returns the numbers of the roller without those of its slices."""
+        whole = f"load={self.load:.6g}, moment={self.moment:.6g}, misalignment={self.misalignment:.6g}"
+        return f"<RollerState {whole}, largest_pressure={self.largest_pressure:.6g}, {self.z.size} slices>"
+
     @property
     def largest_pressure(self) -> float:
         """Largest pressure of all slices; infinite at a corner."""
