@@ -480,9 +480,6 @@ impl<'b, T: Real> Contact<'b, T> {
     pub(crate) fn checked_edges(&self) -> Result<Ends<Edge<T>>, ContactError<T>> {
         let range = self.gap.range();
         let Ends { left, right } = self.corners(range);
-        if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = self.edges {
-            check(Interval { left, right })?;
-        }
         for edge in self.edges {
             match edge {
                 Edge::Adhesive(work) if !(work.is_finite() && work >= T::zero()) => {
@@ -492,10 +489,17 @@ impl<'b, T: Real> Contact<'b, T> {
                     let interval = Interval { left, right };
                     return Err(InputError::InvalidLimits { interval }.into());
                 }
-                Edge::Fixed(x) | Edge::FreeUntil(x) if !(x >= range[0] && x <= range[1]) => {
-                    return Err(SolveError::OutsideBodies { x, range }.into());
-                }
                 _ => {}
+            }
+        }
+        if let Ends { left: Edge::Fixed(left), right: Edge::Fixed(right) } = self.edges {
+            check(Interval { left, right })?;
+        }
+        for edge in self.edges {
+            if let Edge::Fixed(x) | Edge::FreeUntil(x) = edge
+                && !(x >= range[0] && x <= range[1])
+            {
+                return Err(SolveError::OutsideBodies { x, range }.into());
             }
         }
         Ok(self.edges)

@@ -47,14 +47,12 @@ impl<T: Real> Edge<T> {
 
     /// Moves a place that is an end of the bodies but for rounding to that end.
     pub(crate) fn moved_to(self, end: T) -> Self {
-        let moved = |x: T| {
-            let (off, rounding) = ((x - end).component(0), T::of(8.0) * T::epsilon() * x.abs());
-            if off.abs() <= rounding { x - off } else { x }
-        };
+        let (Self::Fixed(x) | Self::FreeUntil(x)) = self else { return self };
+        let (off, rounding) = ((x - end).component(0), T::of(8.0) * T::epsilon() * x.abs());
         match self {
-            Self::Fixed(x) => Self::Fixed(moved(x)),
-            Self::FreeUntil(x) => Self::FreeUntil(moved(x)),
-            edge => edge,
+            _ if !(off.abs() <= rounding && x.is_finite()) => self,
+            Self::Fixed(_) => Self::Fixed(x - off),
+            _ => Self::FreeUntil(x - off),
         }
     }
 

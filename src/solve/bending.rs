@@ -321,8 +321,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             // Each residual is about the square of the one before, times the same factor.
             let fall = residual / self.before;
             let next = if fall > T::zero() { residual * fall * fall } else { residual };
-            let has_rates = T::DERIVATIVE_ORDER > 0;
-            self.has_converged |= !has_rates && self.part == T::one() && next <= rounding();
+            self.has_converged |= T::COMPONENTS < 2 && self.part == T::one() && next <= rounding();
             // A check may have found other contacts than the one that was sought.
             self.is_checked = self.has_converged || !self.may_be_one || spreads.len() > 1;
             self.step_to(spreads, residual)?;
