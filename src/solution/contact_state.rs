@@ -74,7 +74,7 @@ impl<T: Real> ContactState<T> {
         Self::rounding().max(self.open()).min(T::of(MAX_TOLERANCE))
     }
 
-    /// Returns the largest fall of the slope in one contact that counts as none, beside the steepest
+    /// Returns the largest fall of the slope in one contact that counts as none beside the steepest
     /// slope: κ/π times it counts as zero beside the mean pressure, too.
     pub fn negligible_fall(&self, kappa: T, steepest: T) -> T {
         let mean = T::frac_pi_2() * self.load / (kappa * self.interval.half_width());
