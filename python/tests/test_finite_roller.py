@@ -74,8 +74,8 @@ def test_a_roller_is_pickled_and_shown() -> None:
     state = CROWNED.under_load(3000.0)
     assert pickle.loads(pickle.dumps(state)).load == state.load
     assert "41 slices" in repr(CROWNED)
-    state = repr(CYLINDER.under_load(1000.0))
-    assert state.startswith("<RollerState load=1000, moment=0, ") and state.endswith(", 41 slices>")
+    shown = repr(CYLINDER.under_load(1000.0))
+    assert shown.startswith("<RollerState load=1000, moment=0, ") and shown.endswith(", 41 slices>")
 
 
 def test_pictures() -> None:

@@ -620,11 +620,10 @@ def test_a_derivative_of_a_coated_contact_does_not_hang_on_those_before_it(
     ends = (-0.98 * half_length, 0.98 * half_length)
     coated = lc.Layer(lc.Material(5e3, 0.4), 0.3, steel)
     contact = lc.Contact(lc.Flat(), lc.Crowning(depth, half_length, ends), materials=(steel, coated))
-    prescribed = {"load": load, "moment": moment, "about": 0.0}
     by = ["upper.depth", "materials.1.thickness", "load", "moment"]
     of = ["half_width", "peak_pressure"]
-    _, together = lc.gradient(contact, of, by, **prescribed)
-    each = [lc.gradient(contact, of, one, **prescribed)[1] for one in by]
+    _, together = lc.gradient(contact, of, by, load=load, moment=moment, about=0.0)
+    each = [lc.gradient(contact, of, one, load=load, moment=moment, about=0.0)[1] for one in by]
     assert np.allclose(together, np.transpose(each), rtol=1e-8)
 
 

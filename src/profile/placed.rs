@@ -166,7 +166,11 @@ impl<T: Real, P: ParametricProfile<T>> Placed<T, P> {
 
 impl<T: Real, P: ParametricProfile<T>> ParametricProfile<T> for Placed<T, P> {
     fn domain(&self) -> [T; 2] {
-        self.curve.domain()
+        // The ends of a flat body stay finite where it is magnified.
+        let size = self.placement.matrix.map(|[a, b]| a.abs() + b.abs());
+        let most = T::max_value().unwrap_or(T::one() / T::epsilon()) * T::of(0.25);
+        let most = most / size[0].max(size[1]).max(T::one());
+        self.curve.domain().map(|end| end.max(-most).min(most))
     }
 
     fn convexity(&self) -> Convexity {

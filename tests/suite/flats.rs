@@ -15,7 +15,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{Profile, Shares, graph};
-use linecontact::profile::{Ellipse, Placed, Placement, rounded_punch};
+use linecontact::profile::{Ellipse, Line, Placed, Placement, rounded_punch};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Flat, Piecewise, SolveError, Solver,
 };
@@ -290,5 +290,32 @@ fn the_flat_of_a_punch_on_a_circle() {
         assert!(off < 10.0 * said + 1e-15, "F = {load}: {off:e}, but {said:e} is said");
         let off = (cold.hull().centre() - 0.13).abs() / on.half_width();
         assert!(off < 10.0 * cold.limits_error().unwrap(), "F = {load}: {off:e} cold");
+    }
+}
+
+/// A flat body has ends at a quarter of the largest number: between such ends the heights of one
+/// that is turned had no digits, and a contact was missed. Magnified, its ends were infinite.
+#[test]
+fn a_flat_that_is_turned_is_the_line_of_its_slope() {
+    let waves = Curve::new([-3.0, 3.0], |x: f64| {
+        let (sin, cos) = (5.0 * x).sin_cos();
+        CurvePoint { x, y: 0.05 * x * x + 0.028 * cos, dx: 1.0, dy: 0.1 * x - 0.14 * sin }
+    });
+    let intervals = |lower: &dyn ParametricProfile<f64>| {
+        let contact = Contact::new(lower, &waves).unwrap().kappa(1.0);
+        let solution = contact.solve(Control::Load(0.0855)).unwrap();
+        assert!(solution.certify().unwrap().is_proved());
+        solution.intervals().to_vec()
+    };
+    let due = intervals(&Line::new(0.03f64.tan(), [-4.0, 4.0]).unwrap());
+    assert_eq!(due.len(), 3);
+    let turned = Placement::default().rotated(0.03);
+    for placement in [turned, turned.scaled(8.0), Placement::default().scaled(8.0).rotated(0.03)] {
+        let found = intervals(&Placed::new(Flat, placement).unwrap());
+        assert_eq!(found.len(), 3);
+        for (one, other) in found.iter().zip(&due) {
+            let off = (one.left - other.left).abs().max((one.right - other.right).abs());
+            assert!(off < 1e-12, "{found:?}, not {due:?}");
+        }
     }
 }

@@ -89,6 +89,9 @@ impl<T: Real> Body<T> {
             let pieces = [from, (from + count - 1).min(last)];
             self.panels.push(Panel::of_pieces(surface, pieces));
         }
+        if surface.is_endless() && surface.piece(first).curve.slope_at(range[0]).is_none() {
+            self.panels[0].cut_to(surface, range);
+        }
         if self.panels.len() <= FEW_PIECES {
             let wanted = (0..self.panels.len()).filter(|&i| !self.panels[i].is_sampled);
             self.scratch.wanted.extend(wanted.map(|i| (i, false)));

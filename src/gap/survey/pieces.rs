@@ -8,9 +8,9 @@
 use super::panel::{Panel, row};
 use super::segment::Segment;
 use super::series::BodyPoint;
-use crate::Real;
 use crate::gap::Surface;
 use crate::profile::{Convexity, Piece};
+use crate::{CurvePoint, Real};
 
 /// Largest height of a cubic that is 0 at both ends of a unit span, for a unit of its slope at one
 /// end.
@@ -51,6 +51,16 @@ impl<T: Real> Panel<T> {
             panel.doubt = bulge(&ends);
         }
         panel
+    }
+
+    /// Cuts the panel of an endless straight body down to a range of x: between ends so far away
+    /// heights have no digits.
+    pub fn cut_to(&mut self, surface: &Surface<'_, T>, range: [T; 2]) {
+        let (piece, half) = (surface.piece(self.piece), T::of(0.5));
+        let middle = half * piece.k[0] + half * piece.k[1];
+        let CurvePoint { x, dx, .. } = piece.curve.at(middle);
+        self.k = range.map(|end| middle + (end - x) / dx);
+        self.ends = self.k.map(|k| row(piece.curve.at(k)));
     }
 
     /// Returns the panel with the cubic between its ends, if the slopes that the curve gives by x
