@@ -319,3 +319,35 @@ fn a_flat_that_is_turned_is_the_line_of_its_slope() {
         }
     }
 }
+
+/// The loaded gap of a straight flank is lowest near its end, beside a hollow corner, although the
+/// flank itself is lowest at the corner: the second contact was missed.
+#[test]
+fn a_flank_touches_beside_a_hollow_corner() {
+    let points = [[-2.0, 0.458], [0.935, 0.1025], [0.968, 0.0913], [2.0, 0.46]];
+    let flanks = points.windows(2).map(|pair| {
+        let [[x, y], [to, top]] = [pair[0], pair[1]];
+        let slope = (top - y) / (to - x);
+        Curve::new([x, to], move |k: f64| CurvePoint {
+            x: k,
+            y: y + slope * (k - x),
+            dx: 1.0,
+            dy: slope,
+        })
+    });
+    let body = Piecewise::with_tolerance(flanks.collect(), 1e-12).unwrap();
+    let lines = points.windows(2).map(|pair| {
+        let [[x, y], [to, top]] = [pair[0], pair[1]];
+        let line = Line::new((top - y) / (to - x), [0.0, to - x]).unwrap();
+        Placed::new(line, Placement::default().shifted(x, y)).unwrap()
+    });
+    let straight = Piecewise::with_tolerance(lines.collect(), 1e-12).unwrap();
+    for body in [&body as &dyn ParametricProfile<f64>, &straight] {
+        let contact = Contact::new(&Flat, body).unwrap().kappa(1.0);
+        for (load, count) in [(0.0055, 1), (0.006, 2), (0.0065, 2), (0.007, 2), (0.009, 2)] {
+            let solution = contact.solve(Control::Load(load)).unwrap();
+            assert_eq!(solution.intervals().len(), count, "{load}: {solution}");
+            solution.certify().unwrap();
+        }
+    }
+}

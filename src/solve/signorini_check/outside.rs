@@ -257,9 +257,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             let known = beside.filter(|beside| beside.next == next);
             let from = *beside.insert(known.unwrap_or_else(|| self.beside(fields, look, next)));
-            // No part of the load acts from further away than the far end of the contacts.
-            let most = load * (x - hull.left).max(hull.right - x).ln();
-            if height - doubt - from.height >= (most - from.taken) / self.kappa + from.hidden {
+            // A span is no lower than its ends, or than where its tangents cross; no part of the
+            // load acts from further away than the far end of the contacts.
+            let ends = between.unwrap_or([[x, height, T::zero()]; 2]);
+            let least = height.min(ends[0][1]).min(ends[1][1]);
+            let most = load * (ends[1][0] - hull.left).max(hull.right - ends[0][0]).ln();
+            if least - doubt - from.height >= (most - from.taken) / self.kappa + from.hidden {
                 is_parted |= between.is_none();
                 continue;
             }
