@@ -141,7 +141,7 @@ pub(crate) fn certify<T: Real>(solved: Solved<'_, T>) -> Result<Certificate<T>, 
     several.bear(load, &mut system);
     let cost = several.cost;
     for (i, on) in contacts.iter().enumerate() {
-        cells.heights(several.panel_set(i), [on.left, on.centre(), on.right])?;
+        cells.check_heights(several.panel_set(i), [on.left, on.centre(), on.right])?;
     }
     balanced(kappa, found, &several, &mut system, doubt)?;
     let steepest = slopes.iter().map(steepest).fold(T::zero(), T::max);
@@ -404,6 +404,18 @@ mod tests {
             let strengths = Ends { left: 1.0, right: strength };
             let found = state(interval, strengths, ends);
             assert_eq!(presses_at(&found, corners).is_ok(), presses, "{strength}");
+        }
+    }
+
+    /// A load that is unknown, or bears nothing, leaves no fall of the slope unlooked at.
+    #[test]
+    fn beside_an_unknown_load_every_fall_counts() {
+        let on = Interval { left: -0.2, right: 0.2 };
+        let found = |load| ContactState { load, ..state(on, Ends::both(0.0), Ends::both(0.2)) };
+        assert!(found(1.0).negligible_fall(1.0, 0.1) > 0.0);
+        for load in [f64::NAN, 0.0, -1.0] {
+            let allows = found(load).negligible_fall(1.0, 0.1) > 0.0;
+            assert!(!allows, "{load}");
         }
     }
 

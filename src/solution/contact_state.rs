@@ -78,7 +78,8 @@ impl<T: Real> ContactState<T> {
     /// slope: κ/π times it counts as zero beside the mean pressure, too.
     pub fn negligible_fall(&self, kappa: T, steepest: T) -> T {
         let mean = T::frac_pi_2() * self.load / (kappa * self.interval.half_width());
-        self.zero_tolerance() * steepest.min(mean)
+        // A mean that is no number allows nothing.
+        self.zero_tolerance() * if steepest < mean { steepest } else { mean }
     }
 
     /// Tells whether the error of the limits exceeds all tolerances, so that no check can decide: a

@@ -35,14 +35,13 @@ impl<'g, T: Real> Cells<'g, T> {
         self.one.cost
     }
 
-    /// Returns the heights of the gap at places of a row, after a check that they agree with its
-    /// slopes.
-    pub fn heights<const N: usize>(
+    /// Checks that the heights of the gap at places of a row agree with its slopes.
+    pub fn check_heights<const N: usize>(
         &mut self,
         row: &PanelSet<T>,
         x: [T; N],
-    ) -> Result<([T; N], T), ContactError<T>> {
-        row.heights(self.gap, x, &mut self.one.cost)
+    ) -> Result<(), ContactError<T>> {
+        row.heights(self.gap, x, &mut self.one.cost).map(|_| ())
     }
 
     /// Samples the cells between rising places.

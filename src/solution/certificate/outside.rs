@@ -126,7 +126,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             Side::Right => [edge, places[last.max(1) - 1]],
         };
         if known[0] < known[1] {
-            cells.heights(&row, known)?;
+            cells.check_heights(&row, known)?;
         }
         if self.side == Side::Left {
             row.panels.reverse();

@@ -466,13 +466,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let slopes =
             sampler.slope_again(self.gap, beside) + sampler.slope_from(self.gap, x, Side::Right)?;
         let due = T::of(0.5) * slopes * (beside - x);
-        // That of the heights of the bodies, of which the gap is the difference.
+        // The gap is a difference of the bodies' heights, and has their rounding.
         let rounding = T::of(64.0) * T::epsilon() * sampler.highest;
         let mut allowed = self.allowed(height, at_edge) + rounding;
         let is_sound = (rise - due).abs() <= T::of(0.1) * due.abs() + rounding;
-        allowed += if is_sound { T::zero() } else { T::of(8.0) * (rise - due).abs() };
-        if !is_sound && gap < -allowed {
-            allowed += sampler.noise_of_height(self.gap, x)?;
+        if !is_sound {
+            allowed += T::of(8.0) * (rise - due).abs() + sampler.noise_of_height(self.gap, x)?;
         }
         cost.heights += sampler.cost.evaluations;
         let is_open = gap >= -(allowed + self.doubt(fields, from));

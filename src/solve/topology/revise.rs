@@ -260,7 +260,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let (kappa, load) = (conditions.kappa, conditions.load());
         let half_width = T::of(0.5) * (right - left);
         let nothing = SolveError::NoEquilibrium { half_width, near: look.lowest }.into();
-        // By heights that are known no better no cell is right.
+        // Cells go by heights, which must be known to F/κ.
         if load.abs() < kappa * look.doubt_at(look.lowest) {
             return Err(nothing);
         }
