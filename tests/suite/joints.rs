@@ -1,7 +1,7 @@
 //! Joints of pieces: the size by which a jump of Y is measured.
 #![allow(missing_docs)]
 
-use crate::common::{Profile, graph, intervals, join, on_flat};
+use crate::common::{Profile, graph, intervals, join, on_flat, quartic};
 use crate::random_scenes::Dice;
 use approx::assert_relative_eq;
 use linecontact::{Control, Curve, CurvePoint, Piecewise, PiecewiseError};
@@ -148,5 +148,36 @@ fn a_polynomial_cut_at_its_zeros() {
         let middle = PI * (2.0 * i as f64 + 1.0) / 6.0;
         assert_relative_eq!(on.left, -(middle - angle).cos(), epsilon = 1e-13);
         assert_relative_eq!(on.right, -(middle + angle).cos(), epsilon = 1e-13);
+    }
+}
+
+/// Two contacts on x⁴ - 2x², of which one, or both, end hardly beyond a joint: one panel holds nearly
+/// all of a contact, and is seen from the gap next to it.
+#[test]
+fn a_contact_that_ends_hardly_beyond_a_joint() {
+    // κ = 1: F = d²/2, limits ±√(1 ± d/2).
+    for load in [0.01, 0.3, 1.0] {
+        let d = f64::sqrt(2.0 * load);
+        let [inner, outer] = [(1.0 - d / 2.0).sqrt(), (1.0 + d / 2.0).sqrt()];
+        for share in [1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 0.01, 0.05] {
+            let beyond = share * (outer - inner);
+            for joints in [
+                vec![beyond - outer],
+                vec![-inner - beyond],
+                vec![inner + beyond],
+                vec![beyond - outer, inner + beyond],
+            ] {
+                let ends = [&[-2.0], &joints[..], &[2.0]].concat();
+                let body = join(ends.windows(2).map(|ends| quartic(ends[0], ends[1])).collect());
+                let solution = on_flat(body).solve(Control::Load(load)).unwrap();
+                let found = intervals(&solution);
+                let due = [[-outer, -inner], [inner, outer]];
+                let limits = found.iter().flat_map(|on| [on.left, on.right]);
+                for (x, due) in limits.zip(due.as_flattened()) {
+                    let off = (x - due).abs() / (outer - inner);
+                    assert!(off < 1e-13, "F {load}, joints {joints:?}: {x} for {due}");
+                }
+            }
+        }
     }
 }

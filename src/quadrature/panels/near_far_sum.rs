@@ -364,7 +364,7 @@ impl<T: Real> FarPanel<T> {
 /// be used: its terms must not much exceed its values on the panel.
 fn reach<T: Real>(series: &[T], farthest: T) -> T {
     let largest = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
-    let mut reach = T::of(LEAST_REACH).min(farthest).max(T::one());
+    let mut reach = T::of(LEAST_REACH);
     for further in REACHES {
         let further = T::of(further).min(farthest).max(T::one());
         // T_k grows like a power of this.
