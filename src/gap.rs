@@ -407,11 +407,6 @@ impl<'b, T: Real> Gap<'b, T> {
         breakpoints.reduce(T::max).filter(|&breakpoint| breakpoint > self.range[0])
     }
 
-    /// Tells whether either profile has several pieces.
-    pub(crate) fn is_joined(&self) -> bool {
-        self.bodies.iter().any(|body| body.joined.is_some())
-    }
-
     /// Tells whether either profile passes from one piece to the next at `x`.
     pub(crate) fn is_breakpoint(&self, x: T) -> bool {
         self.bodies.iter().any(|body| body.pieces_at(x).is_some())
@@ -435,26 +430,29 @@ impl<'b, T: Real> Gap<'b, T> {
     ) -> impl Iterator<Item = T> {
         let stride = 1 + self.breakpoints(on).count() / most;
         let telling = move |&(i, breakpoint): &(usize, T)| {
-            let [jump, size, _] = self.jump(breakpoint);
-            i % stride == 0 || sign * jump > T::epsilon().sqrt() * size || !size.is_finite()
+            let [jump, ..] = self.jump(breakpoint);
+            i % stride == 0 || sign * jump > T::zero() || !jump.is_finite()
         };
         self.breakpoints(on).enumerate().filter(telling).map(|(_, breakpoint)| breakpoint)
     }
 
-    /// Returns the jump of the slope at a breakpoint, from the known ends of the pieces, the size
-    /// of the slope, and the step of the height, which the tolerance of a joint may let pass.
+    /// Returns the jump of the slope at a breakpoint, from the known ends of the pieces, zero where
+    /// it is rounding, the step of the height, which the tolerance of a joint may let pass, and
+    /// the size of the heights.
     pub(crate) fn jump(&self, breakpoint: T) -> [T; 3] {
-        let [mut jump, mut size, mut step] = [T::zero(); 3];
+        let [mut jump, mut size, mut step, mut height] = [T::zero(); 4];
         for (body, sign) in [(Body::Lower, -T::one()), (Body::Upper, T::one())] {
             if let Some([left, right]) = self.bodies[body as usize].pieces_at(breakpoint) {
                 step += sign * (right.ends[0].y - left.ends[1].y);
+                height += left.ends[1].y.abs();
                 let [left, right] =
                     [(left, 1), (right, 0)].map(|(piece, end)| piece.end_slope(end, &mut 0));
                 jump += sign * (right - left);
                 size += left.abs() + right.abs();
             }
         }
-        [jump, size, step]
+        let is_told = jump.abs() > T::epsilon().sqrt() * size || !size.is_finite();
+        [if is_told { jump } else { T::zero() }, step, height]
     }
 
     /// Returns the smooth piece of a body to the left or right of `x`, and its number.

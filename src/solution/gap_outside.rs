@@ -19,7 +19,8 @@ impl<T: Real> Solution<'_, T> {
     /// Returns the distance between the loaded bodies at `x` outside the contact, measured along y:
     /// a length, zero at both edges. Negative where the bodies would overlap.
     ///
-    /// Next to an edge it is a small difference: its absolute error is the rounding of the heights
+    /// Each place takes an integral of the pressure: about 0.1 ms, some milliseconds for bodies with
+    /// corners. Next to an edge the gap is a small difference: its absolute error is the rounding of the heights
     /// Y of the bodies, and of `F/κ`.
     ///
     /// # Errors

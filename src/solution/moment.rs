@@ -52,10 +52,8 @@ impl<T: Real> Solved<'_, T> {
         }
         let on = self.found.interval;
         let (centre, half_width) = (on.centre(), on.half_width());
-        let one = match self.integrator.panels() {
-            Some(_) => Pressure::new(*self)?.potential()?,
-            None => None,
-        };
+        let has_panels = self.integrator.panels().is_some();
+        let one = if has_panels { Pressure::new(*self)?.potential()? } else { None };
         let about_centre = match one {
             Some(one) => one.moment(),
             None => {

@@ -79,11 +79,6 @@ impl<T: Real> Residual<T> {
         narrower.carried > zero && deficit > zero && lacks_more
     }
 
-    /// Returns the size of the spread as a share of the forces.
-    pub fn relative_spread(&self) -> T {
-        (self.at_a + self.at_b).abs() / self.size
-    }
-
     fn above(&self, floor: T, value: T) -> T {
         if value.abs() <= floor { T::zero() } else { value }
     }

@@ -1,6 +1,6 @@
 //! Reasons why a set of contacts is not the solution.
 
-use crate::{ContactError, Interval, Real, Side};
+use crate::{ContactError, Real, Side};
 
 /// Fault of a set of contacts, with all places of its kind.
 pub(super) enum Fault<T: Real> {
@@ -8,9 +8,8 @@ pub(super) enum Fault<T: Real> {
     Tension(ContactError<T>),
     /// Overlap outside the contacts, with its dips in the workspace.
     Overlap(ContactError<T>),
-    /// Flags: contacts that vanish, and contacts with a gap after them that closes; and those of
-    /// these gaps that are as narrow as rounding.
-    Gone { vanished: Vec<bool>, closed: Vec<bool>, met: Vec<Interval<T>> },
+    /// Flags: contacts that vanish, and contacts with a gap after them that closes.
+    Gone { vanished: Vec<bool>, closed: Vec<bool> },
     /// End of the bodies that a limit passes, step after step.
     Beyond(Side),
     /// Limits that are not found.

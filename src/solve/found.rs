@@ -55,14 +55,14 @@ impl<T: Real> ContactState<T> {
         let (interval, load, reaches) = (self.interval, self.load, self.reaches(edges));
         let mean = T::of(0.5) * load.abs() / interval.half_width();
         let rounding = T::epsilon().sqrt() * mean;
-        Side::BOTH.into_iter().find_map(|side| match (edges[side], self.strengths[side]) {
-            (Edge::Fixed(x), strength) if strength < -rounding || !reaches[side] => {
-                Some(ContactError::Solve(SolveError::LiftsOff { x, strength, interval, load }))
-            }
-            (Edge::FreeUntil(x), strength) if strength < -rounding && !self.free[side] => {
-                Some(ContactError::Solve(SolveError::LiftsOff { x, strength, interval, load }))
-            }
-            _ => None,
+        Side::BOTH.into_iter().find_map(|side| {
+            let strength = self.strengths[side];
+            let (x, is_loose) = match (edges[side], strength < -rounding) {
+                (Edge::Fixed(x), pulls) => (x, pulls || !reaches[side]),
+                (Edge::FreeUntil(x), pulls) => (x, pulls && !self.free[side]),
+                _ => return None,
+            };
+            is_loose.then(|| SolveError::LiftsOff { x, strength, interval, load }.into())
         })
     }
 }

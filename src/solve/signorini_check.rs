@@ -11,12 +11,12 @@ mod outside;
 mod passed;
 
 use super::exterior_field::{ExteriorField, ExteriorFields, POINTS};
+use super::newton::several::CLOSED_WIDTH;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::PanelIntegrator;
-use crate::quadrature::{Integrator, LoadCase};
+use crate::quadrature::{Engine, Integrator, LoadCase};
 use crate::solution::{Closeness, ContactState, Inside, Tensions};
 use crate::{Ends, Extremum, Fallible, Interval, Real, Side};
-pub(super) use outside::Overlaps;
 pub(super) use passed::{Passed, Under};
 use std::cmp::Ordering;
 
@@ -45,11 +45,10 @@ const BESIDE: f64 = 0.1;
 pub(super) struct SignoriniCheck<'c, T: Real> {
     pub gap: &'c Gap<'c, T>,
     pub panels: &'c PanelIntegrator<T>,
+    pub engine: &'c Engine<T>,
     pub contacts: &'c [Interval<T>],
     pub kappa: T,
     pub found: &'c ContactState<T>,
-    /// Places where two contacts have met within rounding, as at a concave kink.
-    pub closed: &'c [Interval<T>],
     /// Contacts under a heavier load, if known: the bodies touch nowhere outside them.
     pub widest: &'c [Interval<T>],
     /// Contacts under a lighter load, if known: tension inside them comes with tension outside
@@ -68,6 +67,27 @@ pub(super) struct TensionSpans<T> {
 impl<T: Real> TensionSpans<T> {
     pub fn new() -> Self {
         Self { spans: Vec::new(), tensions: Tensions::new(), uneven: Vec::new() }
+    }
+}
+
+/// Dips of the loaded gap in which bodies overlap.
+#[derive(Clone)]
+pub(super) struct Overlaps<T> {
+    /// Lowest place of each dip, with the gap there, `[x, gap]`, by rising x.
+    pub dips: Vec<[T; 2]>,
+    /// Spans outside the contacts that a heavier load has closed.
+    pub closed_before: Vec<Interval<T>>,
+}
+
+impl<T: Real> Overlaps<T> {
+    pub fn new() -> Self {
+        Self { dips: Vec::new(), closed_before: Vec::new() }
+    }
+
+    /// Returns the deepest dip.
+    pub fn worst(&self) -> Option<[T; 2]> {
+        let dips = self.dips.iter().copied();
+        dips.reduce(|worst, dip| if dip[1] < worst[1] { dip } else { worst })
     }
 }
 
@@ -148,10 +168,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         for (corner, side) in corners.into_iter().zip(Side::BOTH) {
             let away = |corner: T| (corner - on[side]).abs();
             let is_near = |&corner: &T| away(corner) <= T::of(BESIDE) * on.half_width();
-            let bulges = |&corner: &T| {
-                let [jump, size, _] = self.gap.jump(corner);
-                jump > T::epsilon().sqrt() * size
-            };
+            let bulges = |&corner: &T| self.gap.jump(corner)[0] > T::zero();
             let Some(corner) = corner.filter(is_near).filter(bulges) else { continue };
             is_beside = true;
             if away(corner) < fourth {
@@ -192,7 +209,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
             self.look_into(i, field, tensions, uneven)?;
         }
         let found = &mut tensions.found;
-        found.retain(|place| !self.closed.iter().any(|closed| closed.contains(place.x)));
         found.sort_by(|one, other| by_size(one.value, other.value));
         let mut worst = None;
         for &Extremum { x, value: pressure } in found.iter().take(MAX_DOUBTFUL) {
@@ -207,11 +223,13 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     continue;
                 }
             }
-            worst.get_or_insert([x, pressure]);
-            tension_spans.push(Interval {
-                left: self.presses_from(x, Side::Left)?,
-                right: self.presses_from(x, Side::Right)?,
-            });
+            let [left, right] =
+                [self.presses_from(x, Side::Left)?, self.presses_from(x, Side::Right)?];
+            let span = Interval { left, right };
+            if span.half_width() > self.least_width(x) {
+                worst.get_or_insert([x, pressure]);
+                tension_spans.push(span);
+            }
         }
         Ok(worst)
     }
@@ -243,6 +261,16 @@ impl<T: Real> SignoriniCheck<'_, T> {
         self.panels.uneven(contact, |x| faint / inside.factor(x), uneven);
         let mut uneven = uneven.iter().filter(|&&span| !self.is_pressed(span));
         uneven.try_for_each(|&span| inside.bound(span, found))
+    }
+
+    /// Returns the width below which a gap in a contact, as at a hollow corner, counts as closed: by
+    /// the rounding of x, or by that of the heights over the fall of the slope. (Less than a share
+    /// √ε of the contact, which changes the rest by a share ε.)
+    fn least_width(&self, x: T) -> T {
+        let ([jump, .., height], on) = (self.gap.jump(x), self.found.interval);
+        let by_height = if jump < T::zero() { height / -jump } else { T::zero() };
+        let rounding = T::epsilon() * (on.left.abs().max(on.right.abs()) + by_height);
+        (T::of(CLOSED_WIDTH) * rounding).min(T::epsilon().sqrt() * on.half_width())
     }
 
     /// Returns the nearest place with pressure to one without, among places each twice as far away

@@ -61,8 +61,6 @@ pub(super) struct Search<'s, 'w, 'b, T: Real> {
     cells: usize,
     /// Set before the last revision of one.
     earlier: Vec<Interval<T>>,
-    /// Places where two contacts have met within rounding.
-    met: Vec<Interval<T>>,
     /// Single contacts in which a feature was lost to the panels.
     lost: Vec<Interval<T>>,
     /// Errors of the search for one contact, and of the last set.
@@ -92,7 +90,6 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             samples,
             cells: FIRST_CELLS,
             earlier: Vec::new(),
-            met: Vec::new(),
             lost: Vec::new(),
             of_one: None,
             error: None,

@@ -2,13 +2,14 @@
 #![allow(missing_docs)]
 
 use crate::common;
+use crate::random_scenes::Dice;
 
 use approx::assert_relative_eq;
-use common::{graph, join, on_flat, parabola};
-use linecontact::profile::Parabola;
+use common::{Profile, graph, join, on_flat, parabola};
+use linecontact::profile::{Line, Parabola, Placed, Placement};
 use linecontact::{
-    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Piecewise, Solution, SolveError,
-    Solver,
+    Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Interval, Piecewise, Solution,
+    SolveError, Solver,
 };
 use std::f64::consts::PI;
 
@@ -263,4 +264,83 @@ fn a_tooth_on_a_crest() {
     let solution = contact.solve(Control::Load(120.0)).unwrap();
     assert_eq!(solution.intervals().len(), 5);
     assert!(solution.certify().unwrap().is_proved());
+}
+
+/// Returns a polygon through points.
+fn polygon(points: &[[f64; 2]]) -> Profile {
+    let sides = points.windows(2).map(|ends| -> Profile {
+        let [[from, y], [to, end]] = [ends[0], ends[1]];
+        let side = Line::new((end - y) / (to - from), [0.0, to - from]).unwrap();
+        Box::new(Placed::new(side, Placement::default().shifted(from, y)).unwrap())
+    });
+    Box::new(Piecewise::with_tolerance(sides.collect(), 1e-12).unwrap())
+}
+
+/// A limit next to a hollow corner is not held at a corner beyond the next contact, and a gap too
+/// narrow to be told is none.
+#[test]
+fn a_shallow_hollow_corner_is_closed_by_a_load() {
+    let points = [[-2.0, 1.93994], [-0.4699, 0.08393], [-0.43097, 0.08823]];
+    let others = [[0.63288, 0.1876], [0.68485, 0.26101], [2.0, 1.97621]];
+    let contact = on_flat(polygon(&[&points[..], &others[..]].concat()));
+    let mut counts = Vec::new();
+    for i in 0..=60 {
+        let load = 0.004 * 250f64.powf(f64::from(i) / 60.0);
+        let solution = contact.solve(Control::Load(load));
+        let solution = solution.unwrap_or_else(|error| panic!("{load}: {error}"));
+        counts.push(solution.intervals().len());
+    }
+    counts.dedup();
+    assert_eq!(counts, [2, 1, 2, 1]);
+}
+
+/// Bodies of random flat sides, with hollow corners of any depth; `SCENES=n` in the environment sets
+/// their number.
+#[test]
+fn random_polygons_touch_under_any_load() {
+    let scenes = std::env::var("SCENES").map_or(60, |n| n.parse().unwrap());
+    let [mut undecided, mut refused] = [0; 2];
+    for seed in 0..scenes {
+        let mut dice = Dice::new(seed);
+        let sides = 5 + (6.0 * dice.uniform()) as usize;
+        let rough = dice.power_of_ten(-4.0, -1.5);
+        let mut x: Vec<f64> = (1..sides).map(|_| dice.within(-1.0, 1.0)).collect();
+        x.extend([-2.0, 2.0]);
+        x.sort_by(f64::total_cmp);
+        let points: Vec<_> = x.iter().map(|x| [*x, x * x / 2.0 + rough * dice.normal()]).collect();
+        let contact = on_flat(polygon(&points));
+        let (mut solver, mut last) = (Solver::new(), Interval { left: 2.0, right: -2.0 });
+        for i in 0..12 {
+            let scene = format!("{seed}, {i}");
+            let load = Control::Load(0.003 * 266f64.powf(f64::from(i) / 11.0));
+            let (cold, warm) = match (contact.solve(load), solver.solve(&contact, load)) {
+                (Ok(cold), Ok(warm)) => (cold, warm),
+                (cold, warm) => {
+                    let error = cold.err().or(warm.err()).unwrap();
+                    println!("{scene}: {error}");
+                    refused += 1;
+                    continue;
+                }
+            };
+            let [on, of_warm] = [cold.hull(), warm.hull()];
+            let off = (on.left - of_warm.left).abs().max((on.right - of_warm.right).abs());
+            assert!(off < 1e-9 && cold.limits_error() < Some(1e-9), "{scene}: {cold}, warm {warm}");
+            // Under more load the contact is wider.
+            let grows = on.left <= last.left + 1e-12 && on.right >= last.right - 1e-12;
+            assert!(grows, "{scene}: {cold}");
+            last = on;
+            if i % 4 == 0 {
+                match cold.certify() {
+                    // The height of a gap some 1e-12 wide is not told, nor a narrower gap.
+                    Err(ContactError::Solve(
+                        SolveError::Undecided { .. }
+                        | SolveError::Tension { pressure: f64::NEG_INFINITY, .. },
+                    )) => undecided += 1,
+                    proof => _ = proof.unwrap_or_else(|error| panic!("{scene}: {error}")),
+                }
+            }
+        }
+    }
+    assert!(refused <= scenes * 12 / 2000, "{refused} refused");
+    assert!(undecided <= scenes * 3 / 20, "{undecided} undecided");
 }

@@ -339,7 +339,7 @@ fn a_search_spends_no_more_than_its_budget() {
             CurvePoint { x, y: x * x / 2.0 + sum / (10.0 * teeth), dx, dy: (x + tooth / 10.0) * dx }
         })
     };
-    let (fine, coarse) = (saw(3200.0), saw(40.0));
+    let (fine, coarse) = (saw(6400.0), saw(40.0));
     let contact = Contact::new(&Flat, &fine).unwrap();
     let error = contact.solve(Control::PeakPressure(0.07)).unwrap_err();
     let taken = taken.load(Ordering::Relaxed);

@@ -21,6 +21,7 @@ use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
 use crate::{Ends, Interval, Real, Side};
 use std::borrow::Cow;
+pub(in super::super) use widths::CLOSED_WIDTH;
 
 /// Steps before the search is given up.
 const MAX_NEWTON_STEPS: usize = 60;
@@ -299,10 +300,8 @@ impl<T: Real> NewtonSeveral<T> {
             *cut = if self.widths.contains(&i) { *cut + 1 } else { 0 };
         }
         // If one load reaches both ends, one of them is passed by rounding.
-        let rounding = match conditions.end() {
-            Some(_) => T::epsilon().powf(T::of(2.0 / 3.0)) * hull.half_width(),
-            None => T::zero(),
-        };
+        let rounding = T::epsilon().powf(T::of(2.0 / 3.0)) * hull.half_width();
+        let rounding = conditions.end().map_or(T::zero(), |_| rounding);
         let mut passed = None;
         for (side, outward) in [(Side::Left, -T::one()), (Side::Right, T::one())] {
             let beyond = (self.hull()[side] - ends[side]) * outward;

@@ -114,7 +114,8 @@ impl<T: Real> NestedSearch<'_, T> {
         condition: impl Fn(&Trial<T>) -> T,
         mut attempt: impl FnMut(&mut Self, T) -> Fallible<T, Option<Trial<T>>>,
     ) -> Fallible<T, Trial<T>> {
-        let missing = enclosed.map(|(_, Trial { residual, .. })| residual.relative_spread());
+        let missing =
+            enclosed.map(|(_, Trial { residual: r, .. })| (r.at_a + r.at_b).abs() / r.size);
         if missing[1] < missing[0] {
             enclosed.swap(0, 1);
         }

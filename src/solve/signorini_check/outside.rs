@@ -1,10 +1,11 @@
 //! Overlap of the loaded bodies outside their contacts, where their heights are known and at their
 //! corners.
 
-use super::SignoriniCheck;
 use super::beside::{Beside, Verdict};
+use super::{Overlaps, SignoriniCheck};
 use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
 use crate::quadrature::panels::Rises;
+use crate::solution::Solved;
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{Ends, Fallible, Interval, Real, Side};
 
@@ -28,27 +29,6 @@ const MAX_ROUNDS: usize = 40;
 /// there with as little as a millionth.
 const MAX_HALVES: usize = 8;
 const MAX_CHORDS: usize = 2;
-
-/// Dips of the loaded gap in which bodies overlap.
-#[derive(Clone)]
-pub(in crate::solve) struct Overlaps<T> {
-    /// Lowest place of each dip, with the gap there, `[x, gap]`, by rising x.
-    pub dips: Vec<[T; 2]>,
-    /// Spans outside the contacts that a heavier load has closed.
-    pub closed_before: Vec<Interval<T>>,
-}
-
-impl<T: Real> Overlaps<T> {
-    pub fn new() -> Self {
-        Self { dips: Vec::new(), closed_before: Vec::new() }
-    }
-
-    /// Returns the deepest dip.
-    pub fn worst(&self) -> Option<[T; 2]> {
-        let dips = self.dips.iter().copied();
-        dips.reduce(|worst, dip| if dip[1] < worst[1] { dip } else { worst })
-    }
-}
 
 impl<T: Real> SignoriniCheck<'_, T> {
     /// Returns about the lowest place of the loaded gap between two places; the gap falls at the
@@ -129,14 +109,16 @@ impl<T: Real> SignoriniCheck<'_, T> {
         };
         let mut share = T::of(MAX_TRUNCATION);
         self.resolve(fields, share)?;
-        let mut open = Vec::new();
+        let (mut open, mut hidden) = (Vec::new(), Vec::new());
         for _ in 0..MAX_ROUNDS {
             let [first, last] = corners;
             let lows = look.low_points().filter_map(within);
             let lows = lows.flat_map(|low| self.outside(look, low)).filter(is_new);
             let heights = first.into_iter().chain(lows).chain(last);
             open.clear();
-            let is_hidden = self.overlap_at(fields, look, heights, [dips, &mut open], cost)?;
+            hidden.clear();
+            let found = [&mut *dips, &mut open];
+            self.overlap_at(fields, look, heights, (found, &mut hidden), cost)?;
             if !dips.is_empty() {
                 return Ok(());
             }
@@ -144,7 +126,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let mut is_finer =
                 !open.is_empty() && look.refine_at(self.gap, [&open; 2], T::zero(), cost)?;
             // A narrow contact hides little of the load.
-            while is_hidden && !is_finer && share > T::epsilon() {
+            while !hidden.is_empty() && !is_finer && share > T::epsilon() {
                 share *= T::of(HIDING_FACTOR);
                 is_finer = self.resolve(fields, share)?;
             }
@@ -152,7 +134,24 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 break;
             }
         }
+        // What the series leave open, the pressures themselves decide.
+        for x in hidden {
+            dips.extend(self.overlap_by_pressures(x, cost));
+        }
         Ok(())
+    }
+
+    /// Returns a place with the gap there by the pressures themselves, if it is known and the bodies
+    /// overlap. (At an upright end a curve tells no height.)
+    fn overlap_by_pressures(&self, x: T, cost: &mut Cost) -> Option<[T; 2]> {
+        let &Self { gap, engine: integrator, kappa, found, .. } = self;
+        let mut sampler = Sampler::default();
+        let height = sampler.height(gap, x).ok()?;
+        let allowed = self.allowed(height, sampler.highest);
+        let open = Solved { gap, integrator, kappa, found }.gap_at(x).ok()?;
+        // Here, there, and at the limit.
+        cost.heights += 3 * sampler.cost.evaluations;
+        (open < -allowed).then_some([x, open])
     }
 
     /// Compares the rise of the gap over one contact by its slopes and by the heights of the
@@ -229,20 +228,20 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Finds the dips in which bodies overlap outside the contacts, by rising x, as far as the
-    /// given heights show them. Puts the spans in which the survey hides dips into `open`. Tells
-    /// whether the series of the pressures hide any.
+    /// given heights show them. Puts the spans in which the survey hides dips into `open`, and the
+    /// places where the series of the pressures do into `hidden`.
     fn overlap_at(
         &self,
         fields: &ExteriorFields<T>,
         look: &Survey<T>,
         heights: impl Iterator<Item = LowPoint<T>>,
-        [dips, open]: [&mut Vec<[T; 2]>; 2],
+        ([dips, open], hidden): ([&mut Vec<[T; 2]>; 2], &mut Vec<T>),
         cost: &mut Cost,
-    ) -> Fallible<T, bool> {
+    ) -> Fallible<T, ()> {
         let (contacts, hull) = (self.contacts, self.found.interval);
         let last = contacts.len() - 1;
-        // The first flag: the gap is open somewhere after the last dip.
-        let (mut is_parted, mut is_hidden) = (true, false);
+        // The gap is open somewhere after the last dip.
+        let mut is_parted = true;
         let load = fields.each.iter().fold(T::zero(), |sum, field| sum + field.load());
         let mut beside: Option<Beside<T>> = None;
         let mut next = 0;
@@ -273,7 +272,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let Some((x, verdict)) = judged else { continue };
             if verdict == Verdict::Overlap {
                 let (found, is_open) = self.verified(fields, &from, x, cost)?;
-                is_hidden |= is_open;
+                hidden.extend(is_open.then_some(x));
                 if let Some(found) = found {
                     match dips.last_mut().filter(|_| !is_parted) {
                         None => dips.push(found),
@@ -284,9 +283,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 }
             }
             is_parted |= between.is_none() && verdict == Verdict::Apart;
-            is_hidden |= verdict == Verdict::Unresolved;
+            hidden.extend((verdict == Verdict::Unresolved).then_some(x));
         }
-        Ok(is_hidden)
+        Ok(())
     }
 
     /// Judges a height, or a span at its lowest place; returns the place with the verdict. Returns

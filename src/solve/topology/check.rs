@@ -5,33 +5,33 @@ use super::{Fault, Search, Work, Workspace, asked_by};
 use crate::gap::Gap;
 use crate::quadrature::Integrator;
 use crate::solution::{ContactState, Outcome};
-use crate::{ContactError, Ends, Fallible, Interval, Real, SolveError};
+use crate::{ContactError, Ends, Fallible, Real, SolveError};
 use std::borrow::Cow;
 
 impl<T: Real> Search<'_, '_, '_, T> {
     /// Looks for narrow features in the contacts found; tells whether the panels missed one. Fails
     /// if a search for one contact leads back to where they did.
     pub(super) fn misses(&mut self, found: &ContactState<T>) -> Fallible<T, bool> {
-        let contact = self.contact;
+        let (contact, on) = (self.contact, found.interval);
         if contact.single_interval || contact.gap.is_convex() {
             return Ok(false);
         }
-        let Interval { left, right } = found.interval;
-        contact.gap.check_resolution(left.abs().max(right.abs()))?;
+        contact.gap.check_resolution(on.left.abs().max(on.right.abs()))?;
         let (gap, load) = (&contact.gap.tilted(found.tilt), found.load.abs() / contact.kappa);
         // Under a lighter load the samples at hand need no more probes.
         let is_known = self.samples == self.work.integrator.cost().samples
             && self.work.workspace.survey_of(gap).is_some_and(|look| look.is_resolved(gap, load));
         let Some(panels) = self.work.integrator.panels_mut() else { return Ok(false) };
-        if is_known || !panels.probe(gap, found.interval)? {
+        if is_known || !panels.probe(gap, on)? {
             return Ok(false);
         }
         let is_one = panels.several().is_none();
         // No single contact balances with the feature, and the search has begun anew without it.
-        if is_one && self.lost.iter().any(|on| on.is_same(&found.interval)) {
-            return Err(self.no_balance());
+        if is_one && self.lost.iter().any(|last| last.is_same(&on)) {
+            let (half_width, near) = (on.half_width(), on.centre());
+            return Err(SolveError::NoEquilibrium { half_width, near }.into());
         }
-        self.lost.push(found.interval);
+        self.lost.push(on);
         Ok(true)
     }
 
@@ -93,8 +93,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         // A gap open under a heavier load is open under a lighter one; a place pressed under a
         // lighter load is pressed under a heavier one.
         let (widest, pressed) = (passed.under_more(under), passed.under_less(on, contacts));
-        let closed = &self.met;
-        let check = SignoriniCheck { gap, panels, contacts, kappa, found, closed, widest, pressed };
+        let engine = &self.work.integrator;
+        let check = SignoriniCheck { gap, panels, engine, contacts, kappa, found, widest, pressed };
         fields.each.clear();
         overlaps.dips.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {

@@ -9,7 +9,8 @@
 //! |---|---|
 //! | free, next to a corner, or beyond one at an end | held there |
 //! | free, beyond a corner by hardly more than x is known | held there |
-//! | held, and nothing found, contacts that vanish or meet included | let go, where it was |
+//! | held, and nothing found, or contacts that vanish or meet | let go, where it was |
+//! | held, K > 0, and no wall up to the next contact or hollow corner | let go, where it was |
 //! | held, K < 0 | let go inward, to where it was if that is inward, the lowest first |
 //! | held, K > 0, inside the bodies | put beyond the corner by d, the furthest first |
 //! | held, K > 0, d/L less than the rounding of x over d | held: d is the error of the limit |
@@ -25,7 +26,7 @@ use super::super::newton::several::{NewtonSeveral, put};
 use super::{Given, Search, Workspace};
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::solution::ContactState;
+use crate::solution::{ContactState, Solved};
 use crate::{Edge, Ends, Fallible, Interval, Real, Side};
 
 /// Largest distance of a limit from a corner that may hold it, as a share of the half-width: that
@@ -49,20 +50,15 @@ const TOGETHER: f64 = 0.01;
 const MAX_ROOT_DOUBLINGS: usize = 40;
 const HALVINGS: usize = 5;
 
+/// Limit at a corner that holds it: the contact, the side, and the strength of the singularity.
+type Held<T> = (usize, Side, T);
+
 /// Breakpoint on one side of a contact, with the slope of the gap on its inner side.
 #[derive(Clone, Copy)]
 struct Corner<T> {
     z: T,
     side: Side,
     slope: T,
-}
-
-/// Limit at a corner that holds it.
-struct Held<T> {
-    contact: usize,
-    side: Side,
-    z: T,
-    strength: T,
 }
 
 impl<T: Real> Search<'_, '_, '_, T> {
@@ -96,7 +92,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             &mut *self.work.workspace;
         held.clear();
         if is_of_one && at_corner == Ends::both(false) {
-            return Ok(self.contact.gap.is_joined());
+            return Ok(self.contact.gap.breakpoint_after(ends.left).is_some());
         }
         before.clone_from(on);
         held.resize(on.len().max(1), Ends::both(false));
@@ -128,8 +124,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 if self.end == Some(side) && i == outermost(side) {
                     continue;
                 }
-                let on = self.work.workspace.newton.on[i];
-                if let Some(z) = self.corner_next_to(on, side, mean)? {
+                if let Some(z) = self.corner_next_to(i, side, mean)? {
                     self.hold_at(i, side, z);
                 }
             }
@@ -200,14 +195,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok((rise > least_rise(mean)).then_some(z))
     }
 
-    /// Returns the corner inside the bodies next to a limit of a contact, if there is one. `mean`
-    /// is `F/(κ L)`.
-    fn corner_next_to(&mut self, on: Interval<T>, side: Side, mean: T) -> Fallible<T, Option<T>> {
-        let (range, near) = (self.contact.gap.range(), T::of(NEAR_CORNER) * on.half_width());
-        let (x, outward) = (on[side], outward::<T>(side));
-        let around = Interval { left: (x - near).max(range[0]), right: (x + near).min(range[1]) };
+    /// Returns the corner inside the bodies next to a limit of a contact, if there is one before
+    /// the next contact. `mean` is `F/(κ L)`.
+    fn corner_next_to(&mut self, i: usize, side: Side, mean: T) -> Fallible<T, Option<T>> {
+        let (on, outward) = (self.work.workspace.newton.on[i], outward::<T>(side));
+        let (x, near) = (on[side], T::of(NEAR_CORNER) * on.half_width());
+        let room = self.next_to(i, side).map_or(near, |next| (next - x).abs().min(near));
         let inside = on[side.other()];
-        let mut corners = self.breakpoints(around, side);
+        let mut corners = self.breakpoints(x - outward * near, x + outward * room);
         corners.retain(|&z| outward * (z - inside) > T::zero());
         let reach = T::of(SHORT_WALL) * on.half_width();
         for z in corners {
@@ -226,10 +221,20 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(None)
     }
 
-    /// Lists the breakpoints in an interval, the innermost first for limits on one side.
-    fn breakpoints(&self, on: Interval<T>, side: Side) -> Vec<T> {
+    /// Returns the limit of the next contact on one side of a contact, if there is one.
+    fn next_to(&self, i: usize, side: Side) -> Option<T> {
+        let on = &self.work.workspace.newton.on;
+        match side {
+            Side::Left => i.checked_sub(1).map(|next| on[next].right),
+            Side::Right => on.get(i + 1).map(|next| next.left),
+        }
+    }
+
+    /// Lists the breakpoints from one place to another.
+    fn breakpoints(&self, from: T, to: T) -> Vec<T> {
+        let on = Interval { left: from.min(to), right: from.max(to) };
         let mut breakpoints: Vec<T> = self.contact.gap.breakpoints(on).collect();
-        if side == Side::Left {
+        if to < from {
             breakpoints.reverse();
         }
         breakpoints
@@ -237,11 +242,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Tells whether a limit may end at a corner inside the bodies.
     pub(super) fn has_corners(&mut self) -> Fallible<T, bool> {
-        let Ends { left, right } = self.contact.ends();
-        let mean = self.conditions.load() / self.contact.kappa / (right - left);
-        let (on, reach) = (Interval { left, right }, T::of(0.5 * SHORT_WALL) * (right - left));
+        let ends = self.contact.ends();
+        let width = ends.right - ends.left;
+        let mean = self.conditions.load() / self.contact.kappa / width;
+        let reach = T::of(0.5 * SHORT_WALL) * width;
         for side in Side::BOTH {
-            for z in self.breakpoints(on, side) {
+            for z in self.breakpoints(ends[side.other()], ends[side]) {
                 let corner = self.corner(z, side)?;
                 if self.steepest_beyond(&corner, reach)? > least_rise(mean) {
                     return Ok(true);
@@ -263,8 +269,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// inside: at the ends of the pieces there.
     fn steepest_beyond(&mut self, corner: &Corner<T>, reach: T) -> Fallible<T, T> {
         let &Corner { z, side, .. } = corner;
-        let at = z + outward::<T>(side) * reach;
-        let ends = self.breakpoints(Interval { left: z.min(at), right: z.max(at) }, side);
+        let ends = self.breakpoints(z, z + outward::<T>(side) * reach);
         let away: Vec<T> = ends.iter().map(|&x| (x - z).abs()).chain([reach]).collect();
         let rises = self.rise_beyond(corner, &away)?;
         Ok(rises.into_iter().fold(self.contact.gap.jump(z)[0], T::max))
@@ -295,40 +300,42 @@ impl<T: Real> Search<'_, '_, '_, T> {
             return Ok(false);
         }
         let held = self.strengths(found);
-        let lower =
-            |one: Held<T>, other: Held<T>| if other.strength < one.strength { other } else { one };
-        let lowest = held.into_iter().reduce(lower).filter(|held| held.strength < T::zero());
-        if let Some(Held { contact, side, z, .. }) = lowest {
+        let lower = |one: Held<T>, other: Held<T>| if other.2 < one.2 { other } else { one };
+        let lowest = held.iter().copied().reduce(lower);
+        if let Some((contact, side, _)) = lowest.filter(|held| held.2 < T::zero()) {
             let Workspace { newton, before, .. } = &*self.work.workspace;
-            let step = -T::of(STEP_INWARD) * newton.on[contact].half_width();
-            let as_before = before.get(contact).map(|on| outward::<T>(side) * (on[side] - z));
+            let (on, outward) = (newton.on[contact], outward::<T>(side));
+            let as_before = before.get(contact).map(|last| outward * (last[side] - on[side]));
             let inward = as_before.filter(|away| *away < T::zero());
-            self.let_go((contact, side, z), inward.unwrap_or(step));
+            self.let_go(contact, side, inward.unwrap_or(-T::of(STEP_INWARD) * on.half_width()));
             return Ok(true);
         }
         let ends = self.contact.ends();
         let mut beyond = Vec::new();
         let mut error = T::zero();
-        for Held { contact, side, z, strength } in self.strengths(found) {
+        for (contact, side, strength) in held {
+            let on = self.work.workspace.newton.on[contact];
+            let (z, half_width) = (on[side], on.half_width());
             if z == ends[side] {
                 continue;
             }
-            let half_width = self.work.workspace.newton.on[contact].half_width();
-            let d = self.beyond(contact, side, strength)?;
+            let Some(d) = self.beyond(contact, side, strength)? else {
+                return Ok(self.lets_all_go());
+            };
             // The rounding of x changes the pressure by a share ε x/(2 d).
             let rounding = T::epsilon() * z.abs().max(half_width);
             if d.abs() > (rounding * half_width).sqrt() {
-                beyond.push(((contact, side, z), d));
+                beyond.push((contact, side, d));
             } else {
                 // A distance that is no number leaves the contact doubtful.
                 error += (d + d).abs() / half_width;
             }
         }
         // A step that is small for a wide contact moves a narrow one next to it far.
-        let most = beyond.iter().fold(T::zero(), |most, &(_, d)| most.max(d.abs()));
-        for &(limit, d) in &beyond {
+        let most = beyond.iter().fold(T::zero(), |most, &(.., d)| most.max(d.abs()));
+        for &(contact, side, d) in &beyond {
             if d.abs() >= T::of(TOGETHER) * most {
-                self.let_go(limit, d);
+                self.let_go(contact, side, d);
             }
         }
         // An error of zero is that of corners at the ends.
@@ -362,72 +369,65 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Puts a held limit at a distance beyond its corner.
-    fn let_go(&mut self, (contact, side, z): (usize, Side, T), away: T) {
+    fn let_go(&mut self, contact: usize, side: Side, away: T) {
         let NewtonSeveral { on, held, .. } = &mut self.work.workspace.newton;
         held[contact][side] = false;
-        put(&mut on[contact..=contact], side, z + outward::<T>(side) * away);
+        let x = on[contact][side] + outward::<T>(side) * away;
+        put(&mut on[contact..=contact], side, x);
     }
 
     /// Lists the limits that are held, with the strengths of their singularities.
     fn strengths(&self, found: &ContactState<T>) -> Vec<Held<T>> {
-        let NewtonSeveral { on, held, .. } = &self.work.workspace.newton;
-        let several = self.work.integrator.several();
-        let limits = (0..on.len()).flat_map(|i| Side::BOTH.map(|side| (i, side)));
-        let limits = limits.filter(|&(i, side)| held[i][side]);
-        limits
-            .map(|(contact, side)| {
-                let of_several =
-                    several.map(|several| self.contact.kappa * several.strength(contact, side));
-                let strength = of_several.unwrap_or(found.strengths[side]);
-                Held { contact, side, z: on[contact][side], strength }
-            })
-            .collect()
+        let held = &self.work.workspace.newton.held;
+        let (gap, kappa) = (&self.contact.gap, self.contact.kappa);
+        let solved = Solved { gap, integrator: self.work.integrator, kappa, found };
+        solved.held_limits().filter(|&(i, side, _)| held[i][side]).collect()
     }
 
     /// Returns the distance d beyond a corner at which a contact ends, given the strength with the
-    /// limit held there: up to half a half-width, or to the middle of the gap to the next contact.
-    fn beyond(&mut self, contact: usize, side: Side, strength: T) -> Fallible<T, T> {
+    /// limit held there: up to half a half-width; `None` if it is not below half the gap to the next
+    /// contact, so that both meet, or beyond a hollow corner.
+    fn beyond(&mut self, contact: usize, side: Side, strength: T) -> Fallible<T, Option<T>> {
         let rule = GaussLegendre::coarsest();
-        let (half, on) = (T::of(0.5), &self.work.workspace.newton.on);
-        let (z, half_width) = (on[contact][side], on[contact].half_width());
-        let next = match side {
-            Side::Left => contact.checked_sub(1).map(|next| z - on[next].right),
-            Side::Right => on.get(contact + 1).map(|next| next.left - z),
-        };
-        let reach = half * next.map_or(half_width, |gap| gap.min(half_width));
+        let (half, on) = (T::of(0.5), self.work.workspace.newton.on[contact]);
+        let (z, half_width) = (on[side], on.half_width());
+        let free = half * half_width;
+        let reach = self.next_to(contact, side).map_or(free, |x| free.min(half * (x - z).abs()));
+        let ends = self.breakpoints(z, z + outward::<T>(side) * reach);
+        let hollow = ends.into_iter().find(|&x| self.contact.gap.jump(x)[0] < T::zero());
+        let reach = hollow.map_or(reach, |x| reach.min((x - z).abs()));
         let due = T::pi() * T::pi() * strength * (half * half_width).sqrt() / self.contact.kappa;
-        // In u = √(1 - t/d) the integral is 2 √d ∫ s du.
-        let nodes: Vec<[T; 2]> = (0..rule.n)
-            .map(|i| [T::of(0.5 * (1.0 + rule.nodes[i])), T::of(rule.weights[i])])
-            .collect();
         let corner = self.corner(z, side)?;
         let steepest = self.steepest_beyond(&corner, reach)?;
         let most = reach.sqrt();
+        // In u = √(1 - t/d) the integral is 2 √d ∫ s du.
+        let shares = rule.nodes.map(|z| T::of(1.0 - (0.5 * (1.0 + z)).powi(2)));
         let mut share_at = |root: T| -> Fallible<T, T> {
-            let away: Vec<T> =
-                nodes.iter().map(|&[u, _]| root * root * (T::one() - u * u)).collect();
-            let rises = self.rise_beyond(&corner, &away)?;
-            let both = rises.iter().zip(&nodes);
-            let sum = both.fold(T::zero(), |sum, (&rise, &[_, weight])| sum + weight * rise);
+            let away: Vec<T> = shares[..rule.n].iter().map(|&by| root * root * by).collect();
+            let both = self.rise_beyond(&corner, &away)?.into_iter().zip(&rule.weights);
+            let sum = both.fold(T::zero(), |sum, (rise, &weight)| sum + T::of(weight) * rise);
             Ok(sum * root / due)
         };
         // No wall is steeper, so d is at least as large. A place within the rounding of x cannot be
         // told from the corner.
         let rounding = (T::of(8.0) * T::epsilon() * z.abs()).sqrt();
         let mut low = (due / (steepest + steepest)).max(rounding).min(most);
-        let mut high = low;
+        let (mut high, mut share) = (low, T::zero());
         for _ in 0..MAX_ROOT_DOUBLINGS {
-            let share = share_at(high)?;
+            share = share_at(high)?;
             if high >= most || share >= T::one() {
                 break;
             }
             (low, high) = (high, (high + high).min(most));
         }
+        if share < T::one() && reach < free {
+            return Ok(None);
+        }
         for _ in 0..HALVINGS {
             let root = (low * high).sqrt();
             if share_at(root)? < T::one() { low = root } else { high = root }
         }
-        Ok(low * high)
+        Ok(Some(low * high))
     }
 }
 

@@ -60,7 +60,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 self.error = Some(error);
                 (outcome, self.mend())
             }
-            Fault::Gone { vanished, closed, met } => {
+            Fault::Gone { vanished, closed } => {
                 let mut outcome = Outcome::Lost;
                 for i in (0..on.len()).rev() {
                     if closed[i] {
@@ -70,7 +70,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
                         on.remove(i);
                     }
                 }
-                self.met.extend(met);
                 (outcome, Start::Attempt)
             }
             Fault::Beyond(side) if at_corner[side] => {

@@ -239,7 +239,7 @@ impl<T: Real> Rises<T> {
         }
         // The height at a joint is that on its left.
         for x in std::iter::once(left).chain(gap.breakpoints(Interval { left, right })) {
-            let by_heights = gap.jump(x)[2];
+            let by_heights = gap.jump(x)[1];
             Self { between: [x; 2], by_heights, by_slopes: T::zero(), ..known }.compare()?;
         }
         known.compare().map_err(|_| error)

@@ -2,14 +2,14 @@
 
 use super::super::super::fault::Fault;
 use super::{MAX_CUT, MAX_CUT_STEPS, NewtonSeveral, Width};
-use crate::{Interval, Real};
+use crate::Real;
 use std::cmp::Ordering;
 
 /// Least share of its width that a contact or a gap keeps in one step.
 const LEAST_WIDTH_LEFT: f64 = 0.3;
 
 /// Width below which a gap counts as closed, in units of rounding of x.
-const CLOSED_WIDTH: f64 = 64.0;
+pub(in super::super::super) const CLOSED_WIDTH: f64 = 64.0;
 
 impl<T: Real> NewtonSeveral<T> {
     /// Shortens the moves of the limits: two neighbours leave at least a share of the width between
@@ -121,14 +121,9 @@ impl<T: Real> NewtonSeveral<T> {
         let is_cut = |i: Width| self.cut[i] >= MAX_CUT_STEPS;
         let closes = |i: usize| i < last && (is_cut(2 * i + 1) || self.is_nothing(i));
         let vanishes = |i: usize| is_cut(2 * i) || self.on[i].left >= self.on[i].right;
-        let met = (0..last).filter(|&i| self.is_nothing(i)).map(|i| {
-            let rounding = self.rounding(i);
-            Interval { left: self.on[i].right - rounding, right: self.on[i + 1].left + rounding }
-        });
         Fault::Gone {
             vanished: (0..=last).map(vanishes).collect(),
             closed: (0..=last).map(closes).collect(),
-            met: met.collect(),
         }
     }
 
