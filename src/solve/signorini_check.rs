@@ -263,9 +263,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         uneven.try_for_each(|&span| inside.bound(span, found))
     }
 
-    /// Returns the width below which a gap in a contact, as at a hollow corner, counts as closed: by
-    /// the rounding of x, or by that of the heights over the fall of the slope. (Less than a share
-    /// √ε of the contact, which changes the rest by a share ε.)
+    /// Returns the width below which a gap in a contact, as at a hollow corner, counts as closed:
+    /// by the rounding of x, or by that of the heights over the fall of the slope. (Less than a
+    /// share √ε of the contact, which changes the rest by a share ε.)
     fn least_width(&self, x: T) -> T {
         let ([jump, .., height], on) = (self.gap.jump(x), self.found.interval);
         let by_height = if jump < T::zero() { height / -jump } else { T::zero() };

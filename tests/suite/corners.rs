@@ -294,8 +294,8 @@ fn a_shallow_hollow_corner_is_closed_by_a_load() {
     assert_eq!(counts, [2, 1, 2, 1]);
 }
 
-/// Bodies of random flat sides, with hollow corners of any depth; `SCENES=n` in the environment sets
-/// their number.
+/// Bodies of random flat sides, with hollow corners of any depth; `SCENES=n` in the environment
+/// sets their number.
 #[test]
 fn random_polygons_touch_under_any_load() {
     let scenes = std::env::var("SCENES").map_or(60, |n| n.parse().unwrap());

@@ -151,8 +151,8 @@ fn a_polynomial_cut_at_its_zeros() {
     }
 }
 
-/// Two contacts on x⁴ - 2x², of which one, or both, end hardly beyond a joint: one panel holds nearly
-/// all of a contact, and is seen from the gap next to it.
+/// Two contacts on x⁴ - 2x², of which one, or both, end hardly beyond a joint: one panel holds
+/// nearly all of a contact, and is seen from the gap next to it.
 #[test]
 fn a_contact_that_ends_hardly_beyond_a_joint() {
     // κ = 1: F = d²/2, limits ±√(1 ± d/2).

@@ -141,8 +141,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(())
     }
 
-    /// Returns a place with the gap there by the pressures themselves, if it is known and the bodies
-    /// overlap. (At an upright end a curve tells no height.)
+    /// Returns a place with the gap there by the pressures themselves, if it is known and the
+    /// bodies overlap. (At an upright end a curve tells no height.)
     fn overlap_by_pressures(&self, x: T, cost: &mut Cost) -> Option<[T; 2]> {
         let &Self { gap, engine: integrator, kappa, found, .. } = self;
         let mut sampler = Sampler::default();

@@ -385,8 +385,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Returns the distance d beyond a corner at which a contact ends, given the strength with the
-    /// limit held there: up to half a half-width; `None` if it is not below half the gap to the next
-    /// contact, so that both meet, or beyond a hollow corner.
+    /// limit held there: up to half a half-width; `None` if it is not below half the gap to the
+    /// next contact, so that both meet, or beyond a hollow corner.
     fn beyond(&mut self, contact: usize, side: Side, strength: T) -> Fallible<T, Option<T>> {
         let rule = GaussLegendre::coarsest();
         let (half, on) = (T::of(0.5), self.work.workspace.newton.on[contact]);
