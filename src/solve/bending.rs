@@ -324,7 +324,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             self.has_converged |= T::COMPONENTS < 2 && self.part == T::one() && next <= rounding();
             // A check may have found other contacts than the one that was sought.
             self.is_checked = self.has_converged || !self.may_be_one || spreads.len() > 1;
-            self.step_to(spreads, residual)?;
+            // The whole correction.
+            self.from = std::mem::replace(&mut self.spreads, spreads.clone());
+            (self.target, self.part, self.before) = (spreads, T::one(), residual);
+            self.cut()?;
         }
         Err(self.not_found())
     }
@@ -396,13 +399,6 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         let (ends, edges) = (self.contact.ends(), self.contact.edges);
         let is_at = |side| edges[side] == Edge::Free && place == ends[side];
         Ok(slope.iter().all(T::is_zero) || Side::BOTH.into_iter().any(is_at))
-    }
-
-    /// Takes the whole correction of a solve with this residual.
-    fn step_to(&mut self, target: Vec<Spread<T>>, residual: T) -> Fallible<T, ()> {
-        self.from = std::mem::replace(&mut self.spreads, target.clone());
-        (self.target, self.part, self.before) = (target, T::one(), residual);
-        self.cut()
     }
 
     /// Begins anew.

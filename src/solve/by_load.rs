@@ -200,11 +200,9 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                         let error = found.error.map(|error| error + size);
                         return Ok(ContactState { error, ..found });
                     }
-                    last_steps = match last_steps {
-                        Some(left) => Some(left - 1),
-                        // The rate of a peak is known to only half the digits.
-                        None => is_near.then_some(2 * T::DERIVATIVE_ORDER),
-                    };
+                    // The rate of a peak is known to only half the digits.
+                    let all = is_near.then_some(2 * T::DERIVATIVE_ORDER);
+                    last_steps = last_steps.map(|left| left - 1).or(all);
                     if last_steps.is_some() {
                         load = at.load + step;
                         continue;

@@ -190,7 +190,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
     /// long as their panels miss narrow features.
     fn converge(&mut self) -> Result<ContactState<T>, Fault<T>> {
         let may_be_held = self.hold()?;
-        let (mut fault, mut passed) = (None, Ends::both(false));
+        let (mut fault, mut passed) = (None, Vec::new());
         for _ in 0..MAX_HELD_ROUNDS {
             let mut found = match self.converge_once() {
                 Ok(found) => found,

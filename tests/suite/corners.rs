@@ -267,7 +267,7 @@ fn a_tooth_on_a_crest() {
 }
 
 /// Returns a polygon through points.
-fn polygon(points: &[[f64; 2]]) -> Profile {
+pub fn polygon(points: &[[f64; 2]]) -> Profile {
     let sides = points.windows(2).map(|ends| -> Profile {
         let [[from, y], [to, end]] = [ends[0], ends[1]];
         let side = Line::new((end - y) / (to - from), [0.0, to - from]).unwrap();

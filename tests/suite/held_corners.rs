@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{Profile, Shares, graph, intervals, on_flat};
+use crate::corners::polygon;
 use approx::assert_relative_eq;
 use linecontact::profile::Ellipse;
 use linecontact::quadrature::Quadrature;
@@ -431,4 +432,50 @@ fn corners_on_both_sides_that_pull_are_refused() {
     }
     let pressed = held.solve(Control::CentreOfPressure { load: 1000.0, at: 2.0 }).unwrap();
     assert!(pressed.edge_singularities().into_iter().all(|strength| strength > 0.0));
+}
+
+/// Coplanar lands between grooves bear shares of the load that hang on their corners alone, but for
+/// the distance beyond them: those of rigid punches, `q/√∏(x - e)` with the polynomial q that
+/// closes the grooves (Gauss-Chebyshev). The first cells put limits a tenth of a land beside the
+/// corners.
+#[test]
+fn coplanar_lands_share_the_load_as_rigid_ones_do() {
+    type Scene = (&'static [f64], &'static [f64], [f64; 2], &'static [f64]);
+    let scenes: [Scene; 5] = [
+        (&[0.3, 1.0], &[0.9], [0.02, 100.0], &[0.37816, 0.62184]),
+        (&[0.6, 1.0], &[2.0], [0.02, 10.0], &[0.45278, 0.54722]),
+        (&[2.2, 0.4, 0.8, 1.9], &[1.6; 3], [0.3, 1.0], &[0.38336, 0.1101, 0.14878, 0.35776]),
+        (
+            &[3.0, 2.0, 0.3, 2.0, 1.1],
+            &[0.5, 1.2, 0.9, 0.2],
+            [0.05, 3.0],
+            &[0.36729, 0.16729, 0.06379, 0.18574, 0.21589],
+        ),
+        (&[1.8, 0.7, 1.7], &[2.0, 1.4], [0.05, 0.1], &[0.42234, 0.1804, 0.39726]),
+    ];
+    for (lands, grooves, [depth, slope], shares) in scenes {
+        let wall = depth / slope;
+        let mut points = vec![[-wall, depth]];
+        let mut x = 0.0;
+        for (land, groove) in lands.iter().zip(grooves.iter().chain([&0.0])) {
+            points.extend([[x, 0.0], [x + land, 0.0], [x + land + wall, depth]]);
+            x += land + groove;
+            if *groove > 0.0 {
+                points.push([x - wall, depth]);
+            }
+        }
+        let contact = on_flat(polygon(&points));
+        for load in [0.2, 0.5, 0.9, 1.0, 1.1, 2.0, 4.0].map(|load| 1e-5 * load) {
+            let solution = contact.solve(Control::Load(load)).unwrap();
+            let contacts = solution.contacts().unwrap();
+            assert_eq!(contacts.len(), lands.len(), "{lands:?}, {load}: {solution}");
+            for (one, share) in contacts.iter().zip(shares) {
+                assert!((one.load / load - share).abs() < 1e-4, "{lands:?}, {load}: {solution}");
+            }
+            // Beside chamfers of slope 0.1 the gap is as narrow as the limits are known.
+            let proof = solution.certify();
+            let is_open = matches!(proof, Err(ContactError::Solve(SolveError::Undecided { .. })));
+            assert!(proof.is_ok() || is_open && slope < 1.0, "{lands:?}, {load}: {proof:?}");
+        }
+    }
 }

@@ -180,14 +180,14 @@ impl<T: Real> NewtonSeveral<T> {
                 self.is_trial = size > T::of(LAST_TRIAL);
                 continue;
             }
-            if self.accept(size) {
+            if self.accept(size) && !self.passes_joint(conditions.gap) {
                 if self.is_closed() {
                     return Err(self.gone());
                 }
                 for _ in 0..T::DERIVATIVE_ORDER {
                     self.assemble(several, &turned, conditions)?;
                     self.turn(&mut turned, conditions.besides);
-                    self.advance();
+                    self.advance(conditions.gap);
                 }
                 several.set(&turned, &self.on, &self.held, conditions.ends, false)?;
                 several.carry(self.load, &self.residues);
@@ -223,6 +223,14 @@ impl<T: Real> NewtonSeveral<T> {
         let along =
             |sum: T, (now, (&last, &here)): (T, (&T, &T))| sum + (now - here) * (here - last);
         both.fold(T::zero(), along) < T::zero()
+    }
+
+    /// Tells whether a limit has passed a joint in the last step. Next to a corner the equations
+    /// change within less than the step, whose size then tells nothing of the next.
+    fn passes_joint(&self, gap: &Gap<'_, T>) -> bool {
+        let limits = self.on.iter().flat_map(|on| [on.left, on.right]);
+        let mut both = limits.zip(&self.before[1]);
+        both.any(|(x, &last)| gap.breakpoint_after(x.min(last)).is_some_and(|z| z <= x.max(last)))
     }
 
     /// Goes to the middle of the step before, and takes the last one back.
@@ -295,7 +303,7 @@ impl<T: Real> NewtonSeveral<T> {
     /// Takes the step of the limits; tells whether widths were cut or an end passed.
     fn limit(&mut self, conditions: &Conditions<'_, '_, T>) -> Result<bool, Fault<T>> {
         let (hull, ends) = (self.hull(), conditions.ends);
-        self.advance();
+        self.advance(conditions.gap);
         for (i, cut) in self.cut.iter_mut().enumerate() {
             *cut = if self.widths.contains(&i) { *cut + 1 } else { 0 };
         }

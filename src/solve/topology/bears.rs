@@ -190,12 +190,11 @@ impl<T: Real> Search<'_, '_, '_, T> {
         search.end = Some(end);
         let found = settle(&mut search).ok()?;
         let (on, room) = (found.interval, self.room(found.interval));
-        let side = if room.right < room.left { Side::Right } else { Side::Left };
         // A single contact as wide as the widest balanced one may be a different one.
-        if room[side] > T::epsilon().sqrt() * on.half_width() {
+        if room[lower(room)] > T::epsilon().sqrt() * on.half_width() {
             return None;
         }
-        self.capacity(&found, side)
+        self.capacity(&found, lower(room))
     }
 
     /// Raises the load from one that leaves the gap open at the ends of the bodies, until it closes

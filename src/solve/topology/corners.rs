@@ -139,25 +139,25 @@ impl<T: Real> Search<'_, '_, '_, T> {
         held[contact][side] = true;
     }
 
-    /// Holds the limits of the only contact that have passed a corner at an end of the bodies, or
-    /// one inside by less than x is known; tells whether there are any, and notes the
-    /// sides in `passed`.
+    /// Holds the limits that have passed a corner inside the bodies by less than x is known, and
+    /// those of an only contact beyond a corner at an end; tells whether there are any, and notes
+    /// them in `passed`.
     pub(super) fn passes(
         &mut self,
         found: &ContactState<T>,
-        passed: &mut Ends<bool>,
+        passed: &mut Vec<(usize, Side)>,
     ) -> Fallible<T, bool> {
-        let (edges, on, mut any) = (self.edges(), found.interval, false);
-        if self.work.workspace.newton.on.len() > 1 {
-            return Ok(false);
-        }
-        for side in Side::BOTH {
-            let beyond = |z: T| outward::<T>(side) * (on[side] - z);
+        let (edges, count) = (self.edges(), self.work.workspace.newton.on.len());
+        let mut any = false;
+        for at @ (i, side) in (0..count).flat_map(|i| Side::BOTH.map(|side| (i, side))) {
+            let NewtonSeveral { on, held, .. } = &self.work.workspace.newton;
+            let (on, is_held) = (on[i], held.get(i).is_some_and(|held| held[side]));
             let least = |z: T| T::of(8.0) * T::epsilon() * (z.abs() + on.half_width());
+            let is_beyond = |z: T| outward::<T>(side) * (on[side] - z) > least(z);
             let z = match edges[side] {
-                Edge::FreeUntil(z) if beyond(z) > least(z) => Some(z),
-                Edge::FreeUntil(_) | Edge::Free if !passed[side] => {
-                    self.corner_untold(found, side)?
+                Edge::FreeUntil(z) if count == 1 && is_beyond(z) => Some(z),
+                Edge::FreeUntil(_) | Edge::Free if !is_held && !passed.contains(&at) => {
+                    self.corner_untold(at, found.load)?
                 }
                 _ => None,
             };
@@ -165,31 +165,28 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 let Workspace { newton, before, .. } = &mut *self.work.workspace;
                 if !any {
                     before.clone_from(&newton.on);
-                    newton.held.resize(1, Ends::both(false));
+                    newton.held.resize(count, Ends::both(false));
                 }
-                self.hold_at(0, side, z);
-                (passed[side], any) = (true, true);
+                self.hold_at(i, side, z);
+                passed.push(at);
+                any = true;
             }
         }
         Ok(any)
     }
 
-    /// Returns the corner inside the bodies that a limit found has passed by less than x is known:
-    /// rounding changes the pressure there by more than ε^(1/3), to hold the limit by less than
-    /// ε^(2/3).
-    fn corner_untold(&mut self, found: &ContactState<T>, side: Side) -> Fallible<T, Option<T>> {
-        let (gap, on) = (&self.contact.gap, found.interval);
-        let half_width = on.half_width();
-        let next = match side {
-            Side::Left => gap.breakpoint_after(on.left),
-            Side::Right => gap.breakpoint_before(on.right),
-        };
-        let is_untold = |&z: &T| {
-            let away = (on[side] - z).abs();
-            away * away * away < (T::epsilon() * z.abs()).powi(2) * half_width
-        };
-        let Some(z) = next.filter(is_untold) else { return Ok(None) };
-        let mean = found.load / self.contact.kappa / half_width;
+    /// Returns the corner inside the bodies that a limit found is at, to less than x is known: its
+    /// rounding, or its error, changes the pressure there by more than ε^(1/3), to hold the limit
+    /// by less than ε^(2/3).
+    fn corner_untold(&mut self, (i, side): (usize, Side), load: T) -> Fallible<T, Option<T>> {
+        let NewtonSeveral { on: all, errors, .. } = &self.work.workspace.newton;
+        let (x, half_width, outward) = (all[i][side], all[i].half_width(), outward::<T>(side));
+        let error = if all.len() > 1 { errors[2 * i + side as usize] } else { T::zero() };
+        let sum = all.iter().fold(T::zero(), |sum, on| sum + on.half_width());
+        let mean = load / self.contact.kappa / sum;
+        let near = ((T::epsilon() * x.abs() + error * half_width).powi(2) * half_width).cbrt();
+        let corners = self.breakpoints(x - outward * near, x + outward * near);
+        let Some(&z) = corners.first() else { return Ok(None) };
         let corner = self.corner(z, side)?;
         let rise = self.steepest_beyond(&corner, T::of(SHORT_WALL) * half_width)?;
         Ok((rise > least_rise(mean)).then_some(z))

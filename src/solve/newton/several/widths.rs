@@ -3,6 +3,7 @@
 use super::super::super::fault::Fault;
 use super::{MAX_CUT, MAX_CUT_STEPS, NewtonSeveral, Width};
 use crate::Real;
+use crate::gap::Gap;
 use std::cmp::Ordering;
 
 /// Least share of its width that a contact or a gap keeps in one step.
@@ -56,7 +57,7 @@ impl<T: Real> NewtonSeveral<T> {
     /// Takes the step. The square of each width, of contacts and of gaps, changes as the step
     /// prescribes: both the load of a round body and the load left until a gap closes are linear in
     /// this square.
-    pub(super) fn advance(&mut self) {
+    pub(super) fn advance(&mut self, gap: &Gap<'_, T>) {
         let (zero, one, two) = (T::zero(), T::one(), T::of(2.0));
         let count = self.moves.len();
         let mut order = std::mem::take(&mut self.order);
@@ -101,6 +102,16 @@ impl<T: Real> NewtonSeveral<T> {
                 share = share.min(most / less);
             }
         }
+        // Between two contacts with a hollow corner, no gap beside it is one.
+        for i in (1..count - 1).step_by(2) {
+            let [left, right] = [self.on[i / 2].right, self.on[i / 2 + 1].left];
+            let [first, last] = [gap.breakpoint_after(left), gap.breakpoint_before(right)];
+            for (i, x, z) in [(i, left, first), (i + 1, right, last)] {
+                let hollow = z.filter(|&z| z > left && z < right && gap.jump(z)[0] < zero);
+                let (due, most) = (self.moves[i], hollow.map(|z| (z - x) / (share * two)));
+                self.moves[i] = most.filter(|&most| due / most > one).unwrap_or(due);
+            }
+        }
         for (on, moves) in self.on.iter_mut().zip(self.moves.chunks_exact(2)) {
             on.left += share * moves[0];
             on.right += share * moves[1];
@@ -127,20 +138,9 @@ impl<T: Real> NewtonSeveral<T> {
         }
     }
 
-    /// Tells whether the gap after a contact is as narrow as rounding.
+    /// Tells whether the gap after a contact is as narrow as rounding: it counts as closed.
     fn is_nothing(&self, i: usize) -> bool {
-        self.gap(i) <= self.rounding(i)
-    }
-
-    /// Returns the width below which the gap after a contact counts as closed, from the rounding of
-    /// x.
-    fn rounding(&self, i: usize) -> T {
         let size = self.on[i].left.abs().max(self.on[i + 1].right.abs());
-        T::of(CLOSED_WIDTH) * T::epsilon() * size
-    }
-
-    /// Returns the width of the gap after a contact.
-    fn gap(&self, i: usize) -> T {
-        self.on[i + 1].left - self.on[i].right
+        self.width(2 * i + 1) <= T::of(CLOSED_WIDTH) * T::epsilon() * size
     }
 }
