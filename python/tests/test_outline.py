@@ -203,3 +203,13 @@ def test_drawings_that_cannot_be_read(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setitem(sys.modules, "ezdxf", None)
     with pytest.raises(ImportError, match=r"read by ezdxf: pip install './python\[dxf\]'"):
         lc.read_outline(text)
+
+
+def test_flats_that_repeat_meet_to_the_rounding_of_the_rest() -> None:
+    """Both flats of a wave of lines and arcs are at Y = 0, but for 2e-22 that the arcs between have left."""
+    flat, radius, arc, slope = 0.040715110393712735, 108.25980320456668, 0.017732412922015998, 0.048707292073161206
+    rise = lc.Outline().line(flat).arc(radius, arc).line(slope / 2).arc(-radius, arc)
+    wave = rise.line(slope).arc(-radius, arc).line(slope / 2).arc(radius, arc).line(flat).body()
+    contact = lc.Contact(lc.Flat(), wave, contact_modulus=115384.6, period=0.24977445662181186)
+    for load in (1.45, 1.5, 1.55, 1.6):
+        assert contact.solve(load=load).is_checked

@@ -180,8 +180,9 @@ impl<T: Real> PanelSet<T> {
             let (by_slopes, highest) = (rise(self.as_described(), from, to), sampler.highest);
             let by_heights = heights[1] - heights[0];
             let span = within(self.as_described(), Interval { left: from, right: to });
-            let doubt = |sum, panel: &Panel<T>| sum + panel.error * (panel.x[1] - panel.x[0]);
-            let open = T::of(8.0) * span.iter().fold(T::zero(), doubt);
+            // Flats have the rounding of the rest, too.
+            let doubt = |on: &Panel<T>| (on.error + self.tolerance * self.size) * on.half();
+            let open = span.iter().fold(T::zero(), |sum, on| sum + T::of(16.0) * doubt(on));
             let rises = Rises { between: [from, to], by_heights, by_slopes, highest, open };
             rises.compare_beside_noise(gap, &mut sampler)?;
         }
