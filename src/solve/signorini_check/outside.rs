@@ -146,8 +146,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
     fn overlap_by_pressures(&self, x: T, cost: &mut Cost) -> Option<[T; 2]> {
         let &Self { gap, engine: integrator, kappa, found, .. } = self;
         let mut sampler = Sampler::default();
-        let height = sampler.height(gap, x).ok()?;
-        let allowed = self.allowed(height, sampler.highest);
+        sampler.height(gap, x).ok()?;
+        let allowed = self.allowed(sampler.highest, T::zero());
         let open = Solved { gap, integrator, kappa, found }.gap_at(x).ok()?;
         // Here, there, and at the limit.
         cost.heights += 3 * sampler.cost.evaluations;
