@@ -223,10 +223,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     continue;
                 }
             }
-            let [left, right] =
-                [self.presses_from(x, Side::Left)?, self.presses_from(x, Side::Right)?];
-            let span = Interval { left, right };
-            if span.half_width() > self.least_width(x) {
+            let left = self.presses_from(x, Side::Left)?;
+            let span = Interval { left, right: self.presses_from(x, Side::Right)? };
+            // A pressure that is no number is none of a gap that is closed.
+            let is_closed = pressure < T::zero() && span.half_width() <= self.least_width(x);
+            if !is_closed {
                 worst.get_or_insert([x, pressure]);
                 tension_spans.push(span);
             }
