@@ -16,7 +16,8 @@ use crate::material::{Elasticity, Foundation, PlaneState};
 use crate::quadrature::{Panels, Quadrature};
 use crate::search::{Brent, LimitSearch, Newton};
 use crate::{
-    ContactError, Ends, InputError, Interval, ParametricProfile, Real, References, SolveError,
+    ContactError, Ends, Fallible, InputError, Interval, ParametricProfile, Real, References,
+    SolveError,
 };
 use beside::Beside;
 use edges::{Conditions, Given};
@@ -131,7 +132,7 @@ impl<'b, T: Real> Contact<'b, T> {
         Self::of(Shape::Owned(lower), Shape::Owned(upper))
     }
 
-    fn of(lower: Shape<'b, T>, upper: Shape<'b, T>) -> Result<Self, ContactError<T>> {
+    fn of(lower: Shape<'b, T>, upper: Shape<'b, T>) -> Fallible<T, Self> {
         Ok(Self {
             gap: Gap::new(lower, upper, &Newton::DEFAULT)?,
             kappa: T::one(),
@@ -261,7 +262,7 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Returns the scene with its bodies repeated, if they have a period.
-    pub(crate) fn repeated(&self, cost: &mut Cost) -> Result<Option<Box<Self>>, ContactError<T>> {
+    pub(crate) fn repeated(&self, cost: &mut Cost) -> Fallible<T, Option<Box<Self>>> {
         let Some(period) = self.beside.period else { return Ok(None) };
         Ok(Some(Box::new(Self { gap: self.gap.repeated(period, cost)?, ..self.clone() })))
     }
@@ -400,13 +401,13 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Returns the elasticity of both bodies, if it is known.
-    pub(crate) fn elasticity(&self) -> Result<Option<[Elasticity<T>; 2]>, ContactError<T>> {
+    pub(crate) fn elasticity(&self) -> Fallible<T, Option<[Elasticity<T>; 2]>> {
         let Stiffness::Materials(materials, state) = &self.stiffness else { return Ok(None) };
         Ok(Some(Elasticity::of_bodies(materials, *state)?.0))
     }
 
     /// Returns what the bodies have beside half-planes, if anything.
-    pub(crate) fn kernel_of_bodies(&self) -> Result<Option<Box<Kernel<'b, T>>>, ContactError<T>> {
+    pub(crate) fn kernel_of_bodies(&self) -> Fallible<T, Option<Box<Kernel<'b, T>>>> {
         let is_layer = |of: &Foundation<T>| !matches!(of, Foundation::HalfPlane(_));
         let has_layer =
             matches!(&self.stiffness, Stiffness::Materials(of, _) if of.iter().any(is_layer));
@@ -417,7 +418,7 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Checks the settings of the scene.
-    pub(crate) fn check(&self, control: Control<T>) -> Result<(), ContactError<T>> {
+    pub(crate) fn check(&self, control: Control<T>) -> Fallible<T, ()> {
         self.elasticity()?;
         let kappa = self.kappa;
         if !(kappa.is_finite() && kappa > T::zero()) {
@@ -448,7 +449,7 @@ impl<'b, T: Real> Contact<'b, T> {
     }
 
     /// Returns the conditions under a given load.
-    pub(crate) fn under(&self, load: T) -> Result<Conditions<T>, ContactError<T>> {
+    pub(crate) fn under(&self, load: T) -> Fallible<T, Conditions<T>> {
         let edges = self.checked_edges()?;
         // Adhesion can bear a tensile load, and so can an interval that is not checked.
         let may_pull = edges.are_adhesive() || self.single_interval && !edges.are_sought();
@@ -477,7 +478,7 @@ impl<'b, T: Real> Contact<'b, T> {
         })
     }
 
-    pub(crate) fn checked_edges(&self) -> Result<Ends<Edge<T>>, ContactError<T>> {
+    pub(crate) fn checked_edges(&self) -> Fallible<T, Ends<Edge<T>>> {
         let range = self.gap.range();
         let Ends { left, right } = self.corners(range);
         for edge in self.edges {
@@ -512,10 +513,7 @@ impl<'b, T: Real> Contact<'b, T> {
 }
 
 /// Checks that a number can be prescribed where limits are sought.
-pub(crate) fn check_positive<T: Real>(
-    quantity: &'static str,
-    value: T,
-) -> Result<(), ContactError<T>> {
+pub(crate) fn check_positive<T: Real>(quantity: &'static str, value: T) -> Fallible<T, ()> {
     check_given(quantity, value, is_positive(value), POSITIVE)
 }
 
@@ -525,7 +523,7 @@ pub(crate) fn check_given<T: Real>(
     value: T,
     is_right: bool,
     must: &'static str,
-) -> Result<(), ContactError<T>> {
+) -> Fallible<T, ()> {
     if is_right && value.is_finite() {
         Ok(())
     } else {
@@ -534,7 +532,7 @@ pub(crate) fn check_given<T: Real>(
 }
 
 /// Refuses a place, moment or misalignment that is not finite.
-pub(crate) fn check_finite<T: Real>(quantity: &'static str, value: T) -> crate::Fallible<T, ()> {
+pub(crate) fn check_finite<T: Real>(quantity: &'static str, value: T) -> Fallible<T, ()> {
     let fault = || InputError::InvalidMoment { quantity, value }.into();
     value.is_finite().then_some(()).ok_or_else(fault)
 }
@@ -548,7 +546,7 @@ pub(crate) fn check_within<T: Real>(
     Interval { left, right }: Interval<T>,
     ends: Ends<T>,
     rounding: T,
-) -> Result<(), ContactError<T>> {
+) -> Fallible<T, ()> {
     for (x, beyond) in [(left, ends.left - left), (right, right - ends.right)] {
         if beyond > rounding {
             let range = [ends.left, ends.right];
@@ -558,7 +556,7 @@ pub(crate) fn check_within<T: Real>(
     Ok(())
 }
 
-pub(crate) fn check<T: Real>(interval: Interval<T>) -> Result<(), ContactError<T>> {
+pub(crate) fn check<T: Real>(interval: Interval<T>) -> Fallible<T, ()> {
     let Interval { left, right } = interval;
     if left.is_finite() && right.is_finite() && left < right {
         Ok(())

@@ -22,7 +22,7 @@ use crate::profile::finite;
 use crate::real::same;
 use crate::search::{Bracket, Newton, TryFindError, try_find_with_slope};
 use crate::{
-    ContactError, EvaluationError, Flat, InputError, ParametricProfile, Real, SolveError,
+    ContactError, EvaluationError, Fallible, Flat, InputError, ParametricProfile, Real, SolveError,
     SpringPoint, SpringTable,
 };
 
@@ -242,7 +242,7 @@ impl<T: Real> FiniteRoller<T> {
     }
 
     /// Returns the state under a load, perhaps beyond the table.
-    fn loaded(&self, load: T, misalignment: T) -> Result<RollerState<T>, ContactError<T>> {
+    fn loaded(&self, load: T, misalignment: T) -> Fallible<T, RollerState<T>> {
         let nearest = self.nearest(misalignment)?;
         if load.is_zero() {
             return Ok(self.pressed(load, misalignment, nearest));
@@ -277,7 +277,7 @@ impl<T: Real> FiniteRoller<T> {
     }
 
     /// Returns the approach at which the first slice touches.
-    fn nearest(&self, misalignment: T) -> Result<T, ContactError<T>> {
+    fn nearest(&self, misalignment: T) -> Fallible<T, T> {
         let distances = self.slices.iter().map(|[z, relief]| *relief - misalignment * *z);
         let nearest = distances.reduce(|least, distance| least.min(distance));
         nearest.filter(|nearest| nearest.is_finite() && misalignment.is_finite()).ok_or_else(|| {
@@ -316,7 +316,7 @@ impl<T: Real> FiniteRoller<T> {
     }
 
     /// Refuses a state whose slice that is pressed most is outside the table.
-    fn checked(&self, state: RollerState<T>) -> Result<RollerState<T>, ContactError<T>> {
+    fn checked(&self, state: RollerState<T>) -> Fallible<T, RollerState<T>> {
         let more = |one: RollerSlice<T>, other: RollerSlice<T>| {
             if other.point.approach > one.point.approach { other } else { one }
         };

@@ -28,8 +28,7 @@ use crate::profile::{Convexity, Piece};
 use crate::real::same;
 use crate::search::LimitSearch;
 use crate::{
-    Body, ContactError, CurvePoint, InputError, ParametricProfile, ProfileError, Real, Side,
-    SolveError,
+    Body, CurvePoint, Fallible, InputError, ParametricProfile, ProfileError, Real, Side, SolveError,
 };
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -124,7 +123,7 @@ struct Surface<'b, T: Real> {
 }
 
 impl<'b, T: Real> Surface<'b, T> {
-    fn new(body: Body, shape: Shape<'b, T>) -> Result<Self, ContactError<T>> {
+    fn new(body: Body, shape: Shape<'b, T>) -> Fallible<T, Self> {
         let profile = shape.profile();
         let pieces = match Piece::first_of(profile) {
             Ok(Some((count, first))) => Ok((Some(count), first)),
@@ -271,7 +270,7 @@ impl<'b, T: Real> Gap<'b, T> {
         lower: Shape<'b, T>,
         upper: Shape<'b, T>,
         inversion: &'b dyn LimitSearch<T>,
-    ) -> Result<Self, ContactError<T>> {
+    ) -> Fallible<T, Self> {
         let convexity = [&lower, &upper].map(|shape| shape.profile().convexity());
         let convex = Convexity::gap_is_convex(convexity[0], convexity[1]);
         let bodies = [Surface::new(Body::Lower, lower)?, Surface::new(Body::Upper, upper)?];
@@ -304,11 +303,7 @@ impl<'b, T: Real> Gap<'b, T> {
     /// Reports the progress of the solve to the watching function, and stops the solve if it asks
     /// for this.
     #[inline]
-    pub(crate) fn check_watch(
-        &self,
-        cost: Cost,
-        last: crate::Interval<T>,
-    ) -> Result<(), ContactError<T>> {
+    pub(crate) fn check_watch(&self, cost: Cost, last: crate::Interval<T>) -> Fallible<T, ()> {
         match self.watch {
             Some(watch) if watch(cost, last).is_break() => {
                 Err(SolveError::Cancelled { evaluations: cost.evaluations + cost.heights, last }
@@ -469,7 +464,7 @@ impl<'b, T: Real> Gap<'b, T> {
         body: Body,
         x: T,
         side: Side,
-    ) -> Result<(usize, Piece<'_, T>), ContactError<T>> {
+    ) -> Fallible<T, (usize, Piece<'_, T>)> {
         let (index, piece) = self.piece_at(body, x, side);
         let surface = &self.bodies[body as usize];
         let (count, [from, to]) = (surface.len(), piece.x());
@@ -506,7 +501,7 @@ impl<'b, T: Real> Gap<'b, T> {
         times: usize,
         more: usize,
         last: crate::Interval<T>,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         self.check_watch(cost, last)?;
         let evaluations = cost.evaluations.max(cost.samples);
         if evaluations <= MAX_EVALUATIONS {

@@ -18,7 +18,7 @@ mod sheets;
 pub(crate) use layer::Coating;
 pub use layer::{Base, Foundation, Layer, Stack};
 
-use crate::{Body, ContactError, InputError, Real};
+use crate::{Body, ContactError, Fallible, InputError, Real};
 
 /// Isotropic elastic material, or a rigid body.
 ///
@@ -166,7 +166,7 @@ impl<T: Real> Elasticity<T> {
         if is_zero { Ok(()) } else { Err(InputError::UnlikeBodies { beta }) }
     }
 
-    fn of(body: Body, material: Material<T>, state: PlaneState) -> Result<Self, ContactError<T>> {
+    fn of(body: Body, material: Material<T>, state: PlaneState) -> Fallible<T, Self> {
         let (zero, one) = (T::zero(), T::one());
         let Material::Elastic { youngs_modulus: modulus, poisson_ratio: ratio } = material else {
             return Ok(Self { compliance: zero, ratio: zero, layer: None });
@@ -185,7 +185,7 @@ impl<T: Real> Elasticity<T> {
 }
 
 /// Refuses a number that cannot be a Poisson's ratio.
-pub(crate) fn checked_ratio<T: Real>(ratio: T, body: Option<Body>) -> Result<T, ContactError<T>> {
+pub(crate) fn checked_ratio<T: Real>(ratio: T, body: Option<Body>) -> Fallible<T, T> {
     let is_valid = ratio >= T::zero() && ratio <= T::of(0.5);
     if is_valid { Ok(ratio) } else { Err(InputError::InvalidPoissonRatio { body, ratio }.into()) }
 }

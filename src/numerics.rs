@@ -12,6 +12,13 @@ pub(crate) use far_field::{Combine, FarField};
 pub(crate) use linear_system::LinearSystem;
 
 use crate::Real;
+use std::cmp::Ordering;
+
+/// Returns the order of two numbers by size, NaN first: a total order, which sorting needs.
+pub(crate) fn by_size<T: Real>(one: &T, other: &T) -> Ordering {
+    let is_number = |value: &T| value.partial_cmp(value).is_some();
+    one.partial_cmp(other).unwrap_or_else(|| is_number(one).cmp(&is_number(other)))
+}
 
 /// Returns `Σ a b`, in four sums that a machine can add up at once.
 pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {

@@ -9,8 +9,8 @@ use crate::material::Foundation;
 use crate::profile::{Convexity, CurvePoint, Piece, Placed, Placement, finite};
 use crate::solution::is_steep;
 use crate::{
-    Body, Contact, ContactError, Control, InputError, ParametricProfile, PlaneState, ProfileError,
-    Real, References, Side, Solver,
+    Body, Contact, ContactError, Control, Fallible, InputError, ParametricProfile, PlaneState,
+    ProfileError, Real, References, Side, Solver,
 };
 use std::sync::Arc;
 
@@ -228,7 +228,7 @@ impl<'b, T: Real> Pair<'b, T> {
         Ok(stiffness)
     }
 
-    fn pressed(&mut self, lower: Pose<T>, upper: Pose<T>) -> Result<Pressed<T>, ContactError<T>> {
+    fn pressed(&mut self, lower: Pose<T>, upper: Pose<T>) -> Fallible<T, Pressed<T>> {
         let seen = upper.seen_from(&lower);
         let poses = lower.check().and(upper.check()).map_err(ContactError::from);
         let found = poses.and_then(|()| self.pressed_in_frame(&seen));
@@ -242,7 +242,7 @@ impl<'b, T: Real> Pair<'b, T> {
     }
 
     /// Returns the force in the frame of body 1, from where body 2 is seen.
-    fn pressed_in_frame(&mut self, seen: &Pose<T>) -> Result<Pressed<T>, ContactError<T>> {
+    fn pressed_in_frame(&mut self, seen: &Pose<T>) -> Fallible<T, Pressed<T>> {
         let zero = T::zero();
         let apart = |penetration: T, at: [T; 2]| {
             let (force, torque, contacts, is_steep) = ([zero; 2], [zero; 2], 0, false);

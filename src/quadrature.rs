@@ -29,7 +29,7 @@ pub use midpoint::{Exponents, Midpoint};
 pub use panels::Panels;
 
 use crate::gap::{Cost, Gap};
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{Ends, Fallible, Interval, Real};
 use std::any::Any;
 
 /// Factor on the budget of a search whose quadrature keeps no samples.
@@ -44,7 +44,7 @@ pub(crate) fn complete<T: Real>(
     gap: &Gap<'_, T>,
     on: Interval<T>,
     cost: &mut Cost,
-) -> Result<(), ContactError<T>> {
+) -> Fallible<T, ()> {
     let more = integrator.complete(gap)?;
     *cost += more;
     let pressures = more.evaluations.max(more.samples).saturating_mul(MAX_PRESSURES);
@@ -59,7 +59,7 @@ pub trait Quadrature<T: Real>: Send + Sync {
     /// [`InputError::InvalidSegments`](crate::InputError::InvalidSegments),
     /// [`InputError::InvalidTolerance`](crate::InputError::InvalidTolerance) for settings that
     /// cannot be used.
-    fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>>;
+    fn integrator(&self) -> Fallible<T, Box<dyn Integrator<T>>>;
 
     /// Tells whether an integrator belongs to this quadrature with these settings, so that a
     /// [`Solver`](crate::Solver) may reuse it. By default none does, and each solve creates a new
@@ -101,7 +101,7 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
         _gap: &Gap<'_, T>,
         _on: Interval<T>,
         _coarse: bool,
-    ) -> Result<Option<T>, ContactError<T>> {
+    ) -> Fallible<T, Option<T>> {
         Ok(None)
     }
 
@@ -127,20 +127,19 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
     ///
     /// # Errors
     /// Those of sampling the gap.
-    fn moments(&mut self, gap: &Gap<'_, T>, on: Interval<T>)
-    -> Result<Moments<T>, ContactError<T>>;
+    fn moments(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Fallible<T, Moments<T>>;
 
     /// Prepares pressures over an interval from the samples at hand.
     ///
     /// # Errors
     /// Those of sampling the gap.
-    fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>>;
+    fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Fallible<T, ()>;
 
     /// Takes the samples still missing for the pressure, and returns their cost. Default: no-op.
     ///
     /// # Errors
     /// Those of sampling the gap.
-    fn complete(&self, _gap: &Gap<'_, T>) -> Result<Cost, ContactError<T>> {
+    fn complete(&self, _gap: &Gap<'_, T>) -> Fallible<T, Cost> {
         Ok(Cost::default())
     }
 
@@ -155,7 +154,7 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
         load_case: &LoadCase<T>,
         x: T,
         cost: &mut Cost,
-    ) -> Result<Estimate<T>, ContactError<T>>;
+    ) -> Fallible<T, Estimate<T>>;
 
     /// Computes the pressure at any number of points, by default one by one.
     ///
@@ -168,7 +167,7 @@ pub trait Integrator<T: Real>: Any + Send + Sync {
         x: &[T],
         pressures: &mut [T],
         cost: &mut Cost,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         for (pressure, &x) in pressures.iter_mut().zip(x) {
             *pressure = self.estimate(gap, load_case, x, cost)?.value;
         }

@@ -51,7 +51,7 @@ pub use approach::Approach;
 pub(crate) use approach::Approaching;
 pub(crate) use certificate::certify;
 pub use certificate::{Certificate, Extremum};
-pub(crate) use check::{Closeness, Inside, Tensions};
+pub(crate) use check::{CLOSED_WIDTH, Closeness, Inside, Tensions, least_width, parting};
 pub(crate) use contact_state::ContactState;
 pub use load_rates::LoadRates;
 pub use partial_slip::{PartialSlip, Shear, SlipStress, Traction};

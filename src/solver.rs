@@ -5,7 +5,7 @@ use crate::gap::{Cost, GapId, Sampler};
 use crate::quadrature::Engine;
 use crate::solution::{PartialSlip, Shear, Solution};
 use crate::solve::{Work, Workspace, find, first_touch};
-use crate::{Contact, ContactError, InputError, Real, SolveError};
+use crate::{Contact, ContactError, Fallible, InputError, Real, SolveError};
 use std::sync::Arc;
 
 /// A solver with a workspace of its own, which starts from the last contact it has found.
@@ -75,7 +75,7 @@ impl<T: Real> Solver<T> {
         &mut self,
         contact: &Contact<'b, T>,
         control: Control<T>,
-    ) -> Result<Solution<'b, T>, ContactError<T>> {
+    ) -> Fallible<T, Solution<'b, T>> {
         let serves = |integrator: &Arc<Engine<T>>| integrator.is_of(contact.quadrature);
         let mut is_warm = self.last.is_some() && self.integrator.as_ref().is_some_and(serves);
         let mut spent = Cost::default();
@@ -94,10 +94,7 @@ impl<T: Real> Solver<T> {
     }
 
     /// Returns the place where two bodies would touch first, and the gap there before loading.
-    pub(crate) fn first_touch(
-        &mut self,
-        contact: &Contact<'_, T>,
-    ) -> Result<[T; 2], ContactError<T>> {
+    pub(crate) fn first_touch(&mut self, contact: &Contact<'_, T>) -> Fallible<T, [T; 2]> {
         let x = first_touch(contact, &mut self.workspace, &mut Cost::default())?;
         Ok([x, Sampler::default().height(&contact.gap, x)?])
     }
@@ -110,7 +107,7 @@ impl<T: Real> Solver<T> {
         control: Control<T>,
         is_warm: bool,
         spent: &mut Cost,
-    ) -> Result<Solution<'b, T>, ContactError<T>> {
+    ) -> Fallible<T, Solution<'b, T>> {
         if !is_warm {
             *self = Self::new();
         }

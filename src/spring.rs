@@ -164,7 +164,7 @@ impl<T: Real> SpringTable<T> {
         references: &References<T>,
         loads: [T; 2],
         tolerance: T,
-    ) -> Result<Self, ContactError<T>> {
+    ) -> Fallible<T, Self> {
         let [least, largest] = loads;
         check_given("least load", least, least > T::zero(), "positive")?;
         check_given("largest load", largest, least < largest, "more than the least load")?;

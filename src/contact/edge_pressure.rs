@@ -1,6 +1,6 @@
 //! Edges by the paper's conditions, Eq. (6).
 
-use crate::{ContactError, InputError, Interval, Real, SolveError};
+use crate::{Fallible, InputError, Interval, Real, SolveError};
 
 /// Conditions of the paper at the edges, Eq. (6): `|P(a - ε_a) - A| ≤ ε₁` and
 /// `|P(ε_b - b) - B| ≤ ε₂`.
@@ -61,7 +61,7 @@ impl<T: Real> EdgePressure<T> {
 
     /// Checks the pressures at the edges, given as their differences from A and B times
     /// `π sqrt((x + b)(a - x))`.
-    pub(crate) fn met(&self, on: Interval<T>, [at_a, at_b]: [T; 2]) -> Result<(), ContactError<T>> {
+    pub(crate) fn met(&self, on: Interval<T>, [at_a, at_b]: [T; 2]) -> Fallible<T, ()> {
         let [x_b, x_a] = self.places(on);
         let at_a = at_a / (T::pi() * on.chebyshev_weight(x_a));
         let at_b = at_b / (T::pi() * on.chebyshev_weight(x_b));
@@ -73,7 +73,7 @@ impl<T: Real> EdgePressure<T> {
     }
 
     /// Checks the numbers, given the width of the bodies.
-    pub(crate) fn check(&self, width: T) -> Result<(), ContactError<T>> {
+    pub(crate) fn check(&self, width: T) -> Fallible<T, ()> {
         let infinity = T::one() / T::zero();
         for (name, value, above, below) in [
             ("A", self.at_a, -infinity, infinity),

@@ -3,7 +3,7 @@
 use super::{Gap, MAX_EVALUATIONS, Surface};
 use crate::profile::Convexity;
 use crate::real::is_finite;
-use crate::{ContactError, InputError, Real};
+use crate::{Fallible, InputError, Real};
 use num_traits::ToPrimitive;
 
 /// Full width at half height of the narrowest feature that is seen by default, as a share of the
@@ -55,7 +55,7 @@ impl<T: Real> Gap<'_, T> {
     ///
     /// # Errors
     /// [`InputError::InvalidResolution`].
-    pub(crate) fn check_resolution(&self, x: T) -> Result<(), ContactError<T>> {
+    pub(crate) fn check_resolution(&self, x: T) -> Fallible<T, ()> {
         let is_curved =
             |body: &&Surface<'_, T>| body.shape.profile().convexity() != Convexity::Straight;
         let curved = self.bodies.iter().filter(is_curved).count();

@@ -21,7 +21,7 @@ use super::{Cost, Gap};
 use crate::profile::{Noise, Piece, first_turn};
 use crate::real::is_finite;
 use crate::search::{Bracket, SearchError, try_find_with_slope};
-use crate::{Body, ContactError, InputError, ProfileError, Real, Side, SolveError};
+use crate::{Body, ContactError, Fallible, InputError, ProfileError, Real, Side, SolveError};
 use curve_samples::CurveSamples;
 use inverse_hermite::{InverseHermite, is_between, newton};
 
@@ -86,7 +86,7 @@ pub(crate) fn sample_near<const N: usize, T: Real>(
     cache: &mut SampleCache<T>,
     is_estimate: bool,
     cost: &mut Cost,
-) -> Result<(), ContactError<T>> {
+) -> Fallible<T, ()> {
     const { assert!(N <= MAX_TARGETS) };
     let (index, piece) = gap.piece_with(body, targets[N / 2], Side::Left)?;
     if let Some(slope) = piece.curve.slope_at(targets[0]) {
@@ -159,7 +159,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
     }
 
     /// Replaces the known samples by samples near the targets.
-    fn take(&self, known: &mut CurveSamples<T>, cost: &mut Cost) -> Result<(), ContactError<T>> {
+    fn take(&self, known: &mut CurveSamples<T>, cost: &mut Cost) -> Fallible<T, ()> {
         let (targets, ends) = (self.targets, self.ends);
         let mut curve_samples = [ends[0]; N];
         // On a range much longer than the span of the targets their places are uncertain: one is
@@ -202,7 +202,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         known: &CurveSamples<T>,
         curve_samples: &mut [CurveSample<T>; N],
         cost: &mut Cost,
-    ) -> Result<bool, ContactError<T>> {
+    ) -> Fallible<T, bool> {
         let (mut asked, mut k) = ([0; N], [T::zero(); N]);
         let (row, len) = (&known.row[..], known.len());
         let (mut count, mut right, mut from) = (0, 1, 0);
@@ -259,7 +259,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         known: &CurveSamples<T>,
         curve_samples: &mut [CurveSample<T>; N],
         cost: &mut Cost,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         for (i, &target) in self.targets.iter().enumerate() {
             if self.is_near(i, &curve_samples[i]) {
                 continue;
@@ -297,7 +297,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         i: usize,
         between: [CurveSample<T>; 2],
         cost: &mut Cost,
-    ) -> Result<CurveSample<T>, ContactError<T>> {
+    ) -> Fallible<T, CurveSample<T>> {
         let [left, right] = between;
         let target = self.targets[i];
         let [from_left, to_right] = [target - left.x, right.x - target];
@@ -329,7 +329,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
         i: usize,
         [left, right]: [CurveSample<T>; 2],
         cost: &mut Cost,
-    ) -> Result<CurveSample<T>, ContactError<T>> {
+    ) -> Fallible<T, CurveSample<T>> {
         let (target, body) = (self.targets[i], self.body);
         let [lo, hi] = if self.rises { [left, right] } else { [right, left] };
         // Between joints of both bodies within rounding, a target may lie beyond its piece; of
@@ -371,7 +371,7 @@ impl<const N: usize, T: Real> TargetBatch<'_, N, T> {
 
     /// Checks a point on the way to a target. It need not have a slope: X may have saturated there,
     /// far from the target.
-    fn check(&self, i: usize, curve_sample: &CurveSample<T>) -> Result<(), ContactError<T>> {
+    fn check(&self, i: usize, curve_sample: &CurveSample<T>) -> Fallible<T, ()> {
         let still = curve_sample.dx.is_zero()
             && curve_sample.x.is_finite()
             && !self.is_near(i, curve_sample);

@@ -7,7 +7,9 @@
 use super::{Cost, Gap};
 use crate::profile::Piece;
 use crate::search::{Bracket, SearchError, try_find_with_slope};
-use crate::{Body, ContactError, CurvePoint, InputError, ProfileError, Real, Side, SolveError};
+use crate::{
+    Body, ContactError, CurvePoint, Fallible, InputError, ProfileError, Real, Side, SolveError,
+};
 
 /// Source of values of the slope of the gap, with their cost.
 ///
@@ -54,12 +56,7 @@ impl<T: Real> Sampler<T> {
         self.slope_from(gap, x, Side::Left)
     }
 
-    pub(crate) fn slope_from(
-        &mut self,
-        gap: &Gap<'_, T>,
-        x: T,
-        side: Side,
-    ) -> Result<T, ContactError<T>> {
+    pub(crate) fn slope_from(&mut self, gap: &Gap<'_, T>, x: T, side: Side) -> Fallible<T, T> {
         Ok(self.slope_as_described(gap, x, side)? + gap.added_slope(x))
     }
 
@@ -69,7 +66,7 @@ impl<T: Real> Sampler<T> {
         gap: &Gap<'_, T>,
         x: T,
         side: Side,
-    ) -> Result<T, ContactError<T>> {
+    ) -> Fallible<T, T> {
         let range = gap.range();
         if !(x >= range[0] && x <= range[1]) {
             return Err(SolveError::OutsideBodies { x, range }.into());
@@ -91,16 +88,12 @@ impl<T: Real> Sampler<T> {
     }
 
     /// Returns the height of the gap `Y₂ - Y₁` at `x`, on both bodies, before they are loaded.
-    pub(crate) fn height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
+    pub(crate) fn height(&mut self, gap: &Gap<'_, T>, x: T) -> Fallible<T, T> {
         Ok(gap.with_added(x, self.height_as_described(gap, x)?))
     }
 
     /// Returns the height of the bodies as described.
-    pub(crate) fn height_as_described(
-        &mut self,
-        gap: &Gap<'_, T>,
-        x: T,
-    ) -> Result<T, ContactError<T>> {
+    pub(crate) fn height_as_described(&mut self, gap: &Gap<'_, T>, x: T) -> Fallible<T, T> {
         let lower = self.body_height(gap, Body::Lower, x)?;
         let upper = self.body_height(gap, Body::Upper, x)?;
         self.highest = self.highest.max(lower.abs()).max(upper.abs());
@@ -108,12 +101,7 @@ impl<T: Real> Sampler<T> {
     }
 
     /// Returns the height of one of the bodies.
-    pub(crate) fn body_height(
-        &mut self,
-        gap: &Gap<'_, T>,
-        body: Body,
-        x: T,
-    ) -> Result<T, ContactError<T>> {
+    pub(crate) fn body_height(&mut self, gap: &Gap<'_, T>, body: Body, x: T) -> Fallible<T, T> {
         let (index, piece) = gap.piece_with(body, x, Side::Left)?;
         let Near { k, point, .. } = self.invert(gap, body, index, piece, x)?;
         // Corrects for the residual of the inversion, which may be left at an end, too.
@@ -127,7 +115,7 @@ impl<T: Real> Sampler<T> {
     }
 
     /// Measures the noise of the height of the gap at the place nearest to `x`.
-    pub(crate) fn noise_of_height(&mut self, gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
+    pub(crate) fn noise_of_height(&mut self, gap: &Gap<'_, T>, x: T) -> Fallible<T, T> {
         let (x, mut sum) = (gap.nearest(x), T::zero());
         for body in [Body::Lower, Body::Upper] {
             let (index, piece) = gap.piece_with(body, x, Side::Left)?;
@@ -145,7 +133,7 @@ impl<T: Real> Sampler<T> {
         body: Body,
         x: T,
         side: Side,
-    ) -> Result<T, ContactError<T>> {
+    ) -> Fallible<T, T> {
         let (index, piece) = gap.piece_with(body, x, side)?;
         let fault = |quantity, k, value| {
             let source = ProfileError::NotFinite { quantity, k, value };
@@ -171,7 +159,7 @@ impl<T: Real> Sampler<T> {
         index: usize,
         piece: Piece<'_, T>,
         x: T,
-    ) -> Result<Near<T>, ContactError<T>> {
+    ) -> Fallible<T, Near<T>> {
         let ends = piece.x();
         let guess = match self.near[body as usize].filter(|near| near.piece == index) {
             Some(Near { k, point, .. }) => k + (x - point.x) / point.dx,

@@ -30,7 +30,8 @@ mod series;
 mod tests;
 
 use super::{Cost, Gap};
-use crate::{Body as Which, ContactError, InputError, Interval, ProfileError, Real};
+use crate::numerics::by_size;
+use crate::{Body as Which, ContactError, Fallible, InputError, Interval, ProfileError, Real};
 use body::Body;
 use convex::{Stretch, convex_stretches};
 pub(crate) use lows::{LowPoint, crossing};
@@ -38,7 +39,6 @@ use panel::Panel;
 pub(crate) use probe::MAX_NEAR_UNCERTAINTY;
 use series::BodyPoint;
 pub(super) use series::Series;
-use std::cmp::Ordering;
 
 /// Largest number of rounds of halving, and of evaluations, for one load.
 const MAX_ROUNDS: usize = 40;
@@ -303,7 +303,7 @@ impl<T: Real> Survey<T> {
         wanted: [&[[T; 2]]; 2],
         tolerance: T,
         cost: &mut Cost,
-    ) -> Result<bool, ContactError<T>> {
+    ) -> Fallible<T, bool> {
         let mut changes = false;
         gap.check_watch(*cost, Interval { left: self.range[0], right: self.range[1] })?;
         for which in [Which::Lower, Which::Upper] {
@@ -339,8 +339,7 @@ impl<T: Real> Survey<T> {
         std::mem::swap(&mut self.nodes, &mut self.before);
         let (nodes, before) = (&mut self.nodes, &self.before);
         for body in &mut self.bodies {
-            body.fresh
-                .sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Ordering::Equal));
+            body.fresh.sort_by(|one, other| by_size(&one[0], &other[0]));
         }
         nodes.clear();
         nodes.reserve(2 + self.bodies.iter().map(|body| body.points.capacity()).sum::<usize>());

@@ -15,7 +15,7 @@
 
 use super::sheets::Sheets;
 use super::{Elasticity, Material};
-use crate::{Body, ContactError, InputError, PlaneState, Real};
+use crate::{Body, Fallible, InputError, PlaneState, Real};
 use std::sync::Arc;
 
 /// Layer of even thickness at the surface of a body.
@@ -149,11 +149,7 @@ impl<T> From<Stack<T>> for Foundation<T> {
 
 impl<T: Real> Foundation<T> {
     /// Returns the elastic constants of the surface, with those of a layer below it.
-    pub(super) fn elasticity(
-        &self,
-        body: Body,
-        state: PlaneState,
-    ) -> Result<Elasticity<T>, ContactError<T>> {
+    pub(super) fn elasticity(&self, body: Body, state: PlaneState) -> Fallible<T, Elasticity<T>> {
         let (given, base) = match self {
             Self::HalfPlane(material) => return Elasticity::of(body, *material, state),
             Self::Layer(layer) => (&[(layer.material, layer.thickness)][..], &layer.base),

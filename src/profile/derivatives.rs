@@ -13,6 +13,7 @@
 
 use super::{ParametricProfile, Piece, ProfileError, finite_at, interval};
 use crate::Real;
+use crate::numerics::by_size;
 use crate::numerics::gauss_legendre::GaussLegendre;
 
 /// Number of ranges into which the domain is divided at first.
@@ -234,8 +235,7 @@ impl<T: Real> Range<T> {
 /// Returns the part whose share of error is the median.
 fn typical<T: Real>(parts: &[Range<T>], i: usize) -> Range<T> {
     let mut parts = parts.to_vec();
-    let order = |a: &T, b: &T| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
-    parts.sort_by(|a, b| order(&a.share(i), &b.share(i)));
+    parts.sort_by(|a, b| by_size(&a.share(i), &b.share(i)));
     parts[parts.len() / 2]
 }
 

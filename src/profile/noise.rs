@@ -2,6 +2,7 @@
 
 use super::{CurvePoint, Piece};
 use crate::Real;
+use crate::numerics::by_size;
 
 /// Lengths over which the noise is measured, as shares of a piece: powers of the rounding unit.
 /// Over the shortest all values may be rounded alike, as those of a cosine at 0.
@@ -90,7 +91,7 @@ impl<T: Real> Noise<T> {
                 }
                 *size = T::of(scale) * (sum / weights).abs();
             }
-            sizes.sort_by(|one, other| one.partial_cmp(other).unwrap_or(std::cmp::Ordering::Equal));
+            sizes.sort_by(by_size);
             let median = sizes[order + (POINTS - order) / 2];
             if median.is_finite() { median } else { zero }
         };

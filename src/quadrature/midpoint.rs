@@ -30,7 +30,7 @@ mod moments;
 
 use super::{Estimate, Integrator, LoadCase, Moments, Quadrature, UNCACHED_FACTOR};
 use crate::gap::{Cost, Gap, Sampler};
-use crate::{ContactError, InputError, Interval, Real, Side};
+use crate::{Fallible, InputError, Interval, Real, Side};
 use level::{Level, Pole};
 use moments::moments;
 use std::any::Any;
@@ -114,7 +114,7 @@ impl Default for Midpoint {
 }
 
 impl<T: Real> Quadrature<T> for Midpoint {
-    fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
+    fn integrator(&self) -> Fallible<T, Box<dyn Integrator<T>>> {
         let Self { segments, extrapolations, .. } = *self;
         let Some(levels) = self.levels() else {
             return Err(InputError::InvalidSegments { segments, extrapolations }.into());
@@ -155,23 +155,19 @@ impl<T: Real> Integrator<T> for MidpointIntegrator<T> {
         }
     }
 
-    fn moments(
-        &mut self,
-        gap: &Gap<'_, T>,
-        on: Interval<T>,
-    ) -> Result<Moments<T>, ContactError<T>> {
+    fn moments(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Fallible<T, Moments<T>> {
         gap.check_budget(self.sampler.cost, UNCACHED_FACTOR, 0, on)?;
         let m = moments(&mut self.sampler, gap, on)?;
         self.moments = Some((on, m.error));
         Ok(m)
     }
 
-    fn prepare(&mut self, _gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
+    fn prepare(&mut self, _gap: &Gap<'_, T>, on: Interval<T>) -> Fallible<T, ()> {
         (self.on, self.sums) = (Some(on), OnceLock::new());
         Ok(())
     }
 
-    fn complete(&self, gap: &Gap<'_, T>) -> Result<Cost, ContactError<T>> {
+    fn complete(&self, gap: &Gap<'_, T>) -> Fallible<T, Cost> {
         let Some(on) = self.on.filter(|_| self.sums.get().is_none()) else {
             return Ok(Cost::default());
         };
@@ -197,7 +193,7 @@ impl<T: Real> Integrator<T> for MidpointIntegrator<T> {
         load_case: &LoadCase<T>,
         x: T,
         cost: &mut Cost,
-    ) -> Result<Estimate<T>, ContactError<T>> {
+    ) -> Fallible<T, Estimate<T>> {
         let Some(sums) = self.sums.get() else {
             // Not prepared, so nothing is known.
             return Ok(Estimate { value: T::zero(), error: T::one() / T::zero() });
@@ -230,7 +226,7 @@ struct MidpointSums<T: Real> {
 
 impl<T: Real> MidpointSums<T> {
     /// Returns the Cauchy integral `I(x)`.
-    fn at(&self, gap: &Gap<'_, T>, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
+    fn at(&self, gap: &Gap<'_, T>, x: T, cost: &mut Cost) -> Fallible<T, Estimate<T>> {
         let mut pole = Pole::new(gap, self.on, x);
         let mut rows = Vec::with_capacity(self.levels.len());
         for level in &self.levels {

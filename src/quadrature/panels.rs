@@ -28,7 +28,7 @@ mod treecode;
 use super::{Estimate, Integrator, LoadCase, Moments, Quadrature};
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES};
-use crate::{ContactError, Ends, InputError, Interval, Real, Side, SolveError};
+use crate::{Ends, Fallible, InputError, Interval, Real, Side, SolveError};
 pub(crate) use cauchy_transform::{CauchyTransform, inverse, length, sqrt};
 pub(crate) use edge_integrals::rise as rises_over;
 pub(crate) use half_angle::{Arc, HalfAngle};
@@ -67,7 +67,7 @@ impl Panels {
     /// Full accuracy of the number type and of the profiles' formulas.
     pub const FULL: Self = Self { tolerance: 0.0 };
 
-    pub(crate) fn prepared<T: Real>(&self) -> Result<Box<PanelIntegrator<T>>, ContactError<T>> {
+    pub(crate) fn prepared<T: Real>(&self) -> Fallible<T, Box<PanelIntegrator<T>>> {
         if !(self.tolerance >= 0.0 && self.tolerance < 1.0) {
             return Err(InputError::InvalidTolerance { tolerance: T::of(self.tolerance) }.into());
         }
@@ -87,7 +87,7 @@ impl Panels {
 }
 
 impl<T: Real> Quadrature<T> for Panels {
-    fn integrator(&self) -> Result<Box<dyn Integrator<T>>, ContactError<T>> {
+    fn integrator(&self) -> Fallible<T, Box<dyn Integrator<T>>> {
         T::panels(self)
     }
 
@@ -183,11 +183,7 @@ impl<T: Real> PanelIntegrator<T> {
     ///
     /// # Errors
     /// Those of sampling the bodies.
-    pub(crate) fn probe(
-        &mut self,
-        gap: &Gap<'_, T>,
-        on: Interval<T>,
-    ) -> Result<bool, ContactError<T>> {
+    pub(crate) fn probe(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Fallible<T, bool> {
         if self.is_several {
             return self.several.probe(gap);
         }
@@ -230,11 +226,7 @@ impl<T: Real> PanelIntegrator<T> {
     }
 
     /// Returns the edge integrals from panels sampled on that interval alone.
-    fn sample_anew(
-        &mut self,
-        gap: &Gap<'_, T>,
-        on: Interval<T>,
-    ) -> Result<Moments<T>, ContactError<T>> {
+    fn sample_anew(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Fallible<T, Moments<T>> {
         self.clear_samples();
         self.panel_set.extend(gap, on)?;
         Ok(self.remember(gap, on))
@@ -269,7 +261,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         gap: &Gap<'_, T>,
         on: Interval<T>,
         coarse: bool,
-    ) -> Result<Option<T>, ContactError<T>> {
+    ) -> Fallible<T, Option<T>> {
         self.turn_to_one();
         self.moments = None;
         self.panel_set.clear(true);
@@ -285,11 +277,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         Ok(Some(self.decay.map_or(self.panel_set.tolerance, |[decay, _]| decay * decay)))
     }
 
-    fn moments(
-        &mut self,
-        gap: &Gap<'_, T>,
-        on: Interval<T>,
-    ) -> Result<Moments<T>, ContactError<T>> {
+    fn moments(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Fallible<T, Moments<T>> {
         self.turn_to_one();
         if self.panel_set.add(gap) {
             self.moments = None;
@@ -321,7 +309,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         Ok(m)
     }
 
-    fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Result<(), ContactError<T>> {
+    fn prepare(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Fallible<T, ()> {
         self.turn_to_one();
         let m = self.moments(gap, on)?;
         // It may also be too large for a short part of the contact beyond a breakpoint.
@@ -345,7 +333,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         x: &[T],
         out: &mut [T],
         _cost: &mut Cost,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         if self.is_several {
             self.several.pressures(x, out);
             out.iter_mut().for_each(|pressure| *pressure *= load_case.kappa);
@@ -370,7 +358,7 @@ impl<T: Real> Integrator<T> for PanelIntegrator<T> {
         load_case: &LoadCase<T>,
         x: T,
         cost: &mut Cost,
-    ) -> Result<Estimate<T>, ContactError<T>> {
+    ) -> Fallible<T, Estimate<T>> {
         let mut value = [T::zero()];
         self.pressures(gap, load_case, &[x], &mut value, cost)?;
         let LoadCase { kappa, .. } = *load_case;

@@ -2,11 +2,11 @@
 
 use crate::profile::stored::{pair, shapes};
 use crate::profile::{self, Fit, Placed, Placement, Spline};
-use crate::{ContactError, Flat, ParametricProfile, Piecewise, Real};
+use crate::{ContactError, Fallible, Flat, ParametricProfile, Piecewise, Real};
 use serde::{Deserialize, Deserializer, Serialize, de};
 use std::sync::Arc;
 
-type Built<T> = Result<Arc<dyn ParametricProfile<T>>, ContactError<T>>;
+type Built<T> = Fallible<T, Arc<dyn ParametricProfile<T>>>;
 
 /// Body that a file can hold: a shape, and the steps that place it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

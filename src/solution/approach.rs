@@ -63,8 +63,8 @@ use crate::kernel::{Bend, Periodic, RegularKernel, wavenumbers};
 use crate::material::{Coating, Elasticity};
 use crate::quadrature::{Engine, Panels};
 use crate::{
-    Body, ContactError, InputError, Interval, Real, Reference, References, Side, Solution,
-    SolveError,
+    Body, ContactError, Fallible, InputError, Interval, Real, Reference, References, Side,
+    Solution, SolveError,
 };
 
 /// Distances by which two bodies come together under load.
@@ -212,7 +212,7 @@ struct Referred<T> {
 }
 
 /// Returns a place on or beside the bodies, in the period that was solved.
-fn place<T: Real>(gap: &Gap<'_, T>, x: T) -> Result<T, ContactError<T>> {
+fn place<T: Real>(gap: &Gap<'_, T>, x: T) -> Fallible<T, T> {
     let (x, range) = (gap.folded(x), gap.range());
     if x.is_finite() { Ok(x) } else { Err(SolveError::OutsideBodies { x, range }.into()) }
 }
@@ -267,7 +267,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         Ok(Self { solved, x, bodies })
     }
 
-    fn first(&self) -> Result<First<T>, ContactError<T>> {
+    fn first(&self) -> Fallible<T, First<T>> {
         let heights = |contact| UndeformedGap::new(self.solved, contact, self.x);
         let mut first = First { contact: 0, heights: heights(0)? };
         if let Some(bend) = self.solved.gap.bend() {
@@ -290,7 +290,7 @@ impl<'s, T: Real> Approaching<'s, T> {
 
     /// Returns the contact in which the bodies touched before they were bent, and their least
     /// height there above that at its left limit.
-    fn first_before_bend(&self) -> Result<(usize, T), ContactError<T>> {
+    fn first_before_bend(&self) -> Fallible<T, (usize, T)> {
         let Solved { gap, found, .. } = self.solved;
         let before = gap.as_described();
         let before = &before.tilted(found.tilt);
@@ -346,10 +346,7 @@ impl<'s, T: Real> Approaching<'s, T> {
     }
 
     /// Returns `∫ p (k_i + 2 ln|ξ|) ds` of each body, as a half-plane of its surface's material.
-    fn of_half_planes(
-        &self,
-        integrals: &Integrals<T, impl Density<T>>,
-    ) -> Result<[T; 2], ContactError<T>> {
+    fn of_half_planes(&self, integrals: &Integrals<T, impl Density<T>>) -> Fallible<T, [T; 2]> {
         let constant = self.kernels(T::zero()).map(|kernel| integrals.load * kernel);
         if !self.bodies.iter().any(|to| to.is_depth) {
             return Ok(constant);
@@ -373,10 +370,7 @@ impl<'s, T: Real> Approaching<'s, T> {
     }
 
     /// Returns `∫ p (k_i + 2 ln|ξ|) ds` of each body, and `2 ∫ p R_i ds` at the references.
-    fn smooth(
-        &self,
-        integrals: &Integrals<T, impl Density<T>>,
-    ) -> Result<[[T; 2]; 2], ContactError<T>> {
+    fn smooth(&self, integrals: &Integrals<T, impl Density<T>>) -> Fallible<T, [[T; 2]; 2]> {
         let mut sums = [self.of_half_planes(integrals)?, [T::zero(); 2]];
         let Some(bend) = self.solved.gap.bend() else { return Ok(sums) };
         let kernel = bend.kernel_of_bodies();
@@ -425,7 +419,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         &self,
         integrals: &Integrals<T, impl Density<T>>,
         on: Interval<T>,
-    ) -> Result<T, ContactError<T>> {
+    ) -> Fallible<T, T> {
         let (contacts, half) = (self.solved.contacts(), T::of(0.5));
         let (scale, half_width) = (self.scale(), on.half_width());
         let inside = (half * half_width / scale).ln();
@@ -457,7 +451,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         integrals: &Integrals<T, impl Density<T>>,
         smooth: [T; 2],
         first: &First<T>,
-    ) -> Result<T, ContactError<T>> {
+    ) -> Fallible<T, T> {
         let UndeformedGap { mean, least, .. } = first.heights;
         let logarithm = self.mean_logarithm(integrals, self.solved.contacts()[first.contact])?;
         Ok(mean - least + self.both(smooth, logarithm))
@@ -552,7 +546,7 @@ impl<'s, T: Real> Approaching<'s, T> {
         &self,
         integrals: &Integrals<T, impl Density<T>>,
         known: Option<&First<T>>,
-    ) -> Result<T, ContactError<T>> {
+    ) -> Fallible<T, T> {
         let (x, contacts) = (self.x, self.solved.contacts());
         let Some(i) = contacts.iter().position(|on| x >= on.left && x <= on.right) else {
             let scale = self.scale();

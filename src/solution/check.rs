@@ -4,11 +4,15 @@ mod inside;
 mod series_bounds;
 
 pub(super) use inside::Pressures;
-pub(crate) use inside::{Inside, Tensions};
+pub(crate) use inside::{Inside, Tensions, parting};
 pub(super) use series_bounds::{bounds, extremes, least, truncation_error};
 
 use super::Extremum;
-use crate::Real;
+use crate::gap::Gap;
+use crate::{Interval, Real};
+
+/// Width of a gap in a contact that counts as closed, in units of rounding.
+pub(crate) const CLOSED_WIDTH: f64 = 64.0;
 
 /// Closeness of a check: where it stops to look closer.
 #[derive(Clone, Copy)]
@@ -37,4 +41,14 @@ pub(super) fn nearer<T: Real>(
     one.into_iter()
         .chain(other)
         .reduce(|one, other| if one.value < other.value { one } else { other })
+}
+
+/// Returns the width below which a gap in contacts from one limit to another, as at a hollow
+/// corner, counts as closed: by the rounding of x, or by that of the heights over the fall of the
+/// slope. (Less than a share √ε of the contacts, which changes the rest by a share ε.)
+pub(crate) fn least_width<T: Real>(gap: &Gap<'_, T>, on: Interval<T>, x: T) -> T {
+    let [jump, .., height] = gap.jump(x);
+    let by_height = if jump < T::zero() { height / -jump } else { T::zero() };
+    let rounding = T::epsilon() * (on.left.abs().max(on.right.abs()) + by_height);
+    (T::of(CLOSED_WIDTH) * rounding).min(T::epsilon().sqrt() * on.half_width())
 }

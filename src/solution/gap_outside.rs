@@ -13,7 +13,9 @@
 use super::Solved;
 use super::pressure_integral::Integrals;
 use crate::gap::Sampler;
-use crate::{ContactError, EvaluationError, Interval, Pressure, Real, Solution, SolveError};
+use crate::{
+    ContactError, EvaluationError, Fallible, Interval, Pressure, Real, Solution, SolveError,
+};
 
 impl<T: Real> Solution<'_, T> {
     /// Returns the distance between the loaded bodies at `x` outside the contact, measured along y:
@@ -78,7 +80,7 @@ impl<T: Real> Solved<'_, T> {
     }
 
     /// Returns the edge nearest to a point outside the contacts, with a flag: the edge is free.
-    fn nearest_edge(&self, x: T) -> Result<(T, bool), ContactError<T>> {
+    fn nearest_edge(&self, x: T) -> Fallible<T, (T, bool)> {
         let (contacts, range) = (self.contacts(), self.gap.range());
         let (next, inside) = Interval::find(contacts, x);
         if let Some(interval) = inside {

@@ -4,7 +4,7 @@ use super::pressure_integral::Density;
 use super::solved::Solved;
 use crate::kernel::{Spread, punch};
 use crate::quadrature::panels::LoadResponse;
-use crate::{ContactError, Ends, EvaluationError, Interval, Real, Solution};
+use crate::{ContactError, Ends, EvaluationError, Fallible, Interval, Real, Solution};
 
 /// Exact derivatives of a contact by its load per unit length F, at constant other data.
 ///
@@ -61,7 +61,7 @@ enum Touching<T> {
 }
 
 impl<T: Real> Density<T> for &LoadRates<T> {
-    fn values(&self, x: &[T], rates: &mut [T]) -> Result<(), ContactError<T>> {
+    fn values(&self, x: &[T], rates: &mut [T]) -> Fallible<T, ()> {
         rates.iter_mut().zip(x).try_for_each(|(rate, &x)| {
             *rate = self.pressure(x)?;
             Ok(())
@@ -131,7 +131,7 @@ impl<T: Real> Solution<'_, T> {
 impl<T: Real> LoadRates<T> {
     /// Returns the derivatives of a contact, of bodies with a layer or another kernel, too: the
     /// bend changes with the load.
-    pub(crate) fn of(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
+    pub(crate) fn of(solved: Solved<'_, T>) -> Fallible<T, Self> {
         let held = Self::new(solved)?;
         let Some(bend) = solved.gap.bend() else { return Ok(held) };
         let Some(spreads) = punch(bend.kernel_of_bodies(), solved.contacts(), false) else {
@@ -157,7 +157,7 @@ impl<T: Real> LoadRates<T> {
     }
 
     /// Returns the derivatives of a contact of half-planes, or of bodies with a given bend.
-    pub(crate) fn new(solved: Solved<'_, T>) -> Result<Self, ContactError<T>> {
+    pub(crate) fn new(solved: Solved<'_, T>) -> Fallible<T, Self> {
         let Solved { found, kappa, .. } = solved;
         let Some(several) = solved.several().filter(|_| found.apart.is_none()) else {
             return Ok(Self::of_one(Self::limits_of_one(solved)?, found.interval));
@@ -172,7 +172,7 @@ impl<T: Real> LoadRates<T> {
     }
 
     /// Returns the derivatives of the limits of a single contact.
-    pub(crate) fn limits_of_one(solved: Solved<'_, T>) -> Result<Ends<T>, ContactError<T>> {
+    pub(crate) fn limits_of_one(solved: Solved<'_, T>) -> Fallible<T, Ends<T>> {
         let Solved { found, kappa, .. } = solved;
         let on = found.interval;
         let refuse = |why| Err(EvaluationError::NoLoadDerivative { why }.into());

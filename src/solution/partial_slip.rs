@@ -20,7 +20,7 @@
 
 use super::stress::{Stress, StressPeak, Subsurface};
 use super::{Extremum, Pressure, Solution};
-use crate::{Body, ContactError, Interval, Real, SolveError};
+use crate::{Body, ContactError, Fallible, Interval, Real, SolveError};
 
 /// Loads along the contact, and its friction.
 ///
@@ -65,7 +65,7 @@ impl<'b, T: Real> PartialSlip<'b, T> {
         normal: Solution<'b, T>,
         stick: Solution<'b, T>,
         shear: Shear<T>,
-    ) -> Result<Self, ContactError<T>> {
+    ) -> Fallible<T, Self> {
         let error = |solution: &Solution<'_, T>| solution.limits_error().unwrap_or(T::zero());
         let open = T::of(16.0) * (T::epsilon() + error(&normal) + error(&stick));
         for &zone in stick.intervals() {

@@ -2,9 +2,9 @@
 
 use super::{ContactState, LoadRates, Pressure, Solution, Solved};
 use crate::gap::{Cost, Gap};
+use crate::numerics::by_size;
 use crate::quadrature::{Engine, Estimate, LoadCase};
-use crate::{ContactError, EvaluationError, Interval, Real};
-use std::cmp::Ordering;
+use crate::{ContactError, EvaluationError, Fallible, Interval, Real};
 
 /// Least number of grid points for the first search of a largest pressure.
 const LEAST_GRID: usize = 64;
@@ -112,11 +112,7 @@ impl<T: Real> Solved<'_, T> {
     }
 
     /// Finds the largest pressure of one contact, given by its number.
-    pub(super) fn peak_in(
-        &self,
-        contact: usize,
-        cost: &mut Cost,
-    ) -> Result<(T, Estimate<T>), ContactError<T>> {
+    pub(super) fn peak_in(&self, contact: usize, cost: &mut Cost) -> Fallible<T, (T, Estimate<T>)> {
         let (on, ContactState { load, free, .. }) = (self.contacts()[contact], *self.found);
         let load_case = LoadCase { kappa: self.kappa, load, free };
         let (x, top) =
@@ -151,7 +147,7 @@ pub(crate) fn largest_pressure<T: Real>(
     load_case: &LoadCase<T>,
     (contact, on): (usize, Interval<T>),
     cost: &mut Cost,
-) -> Result<(T, Estimate<T>), ContactError<T>> {
+) -> Fallible<T, (T, Estimate<T>)> {
     let x = places(integrator, gap, contact, on);
     let mut pressures = vec![T::zero(); x.len()];
     integrator.pressures(gap, load_case, &x, &mut pressures, cost)?;
@@ -243,7 +239,7 @@ pub(super) fn rises<T: Real>(grid: &[[T; 2]]) -> Vec<Rise<T>> {
         is_top.then_some(Rise { bracket: beside.map(|[x, _]| x), highest, bound })
     };
     let mut rises: Vec<_> = (0..grid.len()).filter_map(rise).collect();
-    rises.sort_by(|one, other| other.bound.partial_cmp(&one.bound).unwrap_or(Ordering::Equal));
+    rises.sort_by(|one, other| by_size(&other.bound, &one.bound));
     rises
 }
 
@@ -251,8 +247,8 @@ pub(super) fn rises<T: Real>(grid: &[[T; 2]]) -> Vec<Rise<T>> {
 /// there.
 pub(super) fn narrow<T: Real>(
     [mut lo, mut hi]: [T; 2],
-    mut values: impl FnMut(&[T], &mut [T]) -> Result<(), ContactError<T>>,
-) -> Result<T, ContactError<T>> {
+    mut values: impl FnMut(&[T], &mut [T]) -> Fallible<T, ()>,
+) -> Fallible<T, T> {
     let mut highest = T::of(0.5) * (lo + hi);
     let resolution = T::epsilon().sqrt() * (hi - lo);
     while hi - lo > resolution {
@@ -286,7 +282,7 @@ impl<T: Real> Search<'_, '_, T> {
     }
 
     /// Takes the pressure at `x` into account, and returns it.
-    fn meet(&mut self, x: T) -> Result<Estimate<T>, ContactError<T>> {
+    fn meet(&mut self, x: T) -> Fallible<T, Estimate<T>> {
         let found = self.integrator.estimate(self.gap, self.load_case, x, self.cost)?;
         let top = self.top.1;
         let are_alike = self.counts(found) == self.counts(top);
@@ -298,7 +294,7 @@ impl<T: Real> Search<'_, '_, T> {
     }
 
     /// Drops the grid points whose pressure has no correct digit, unless all are so.
-    fn keep_resolved(&mut self, grid: &mut Vec<[T; 2]>) -> Result<(), ContactError<T>> {
+    fn keep_resolved(&mut self, grid: &mut Vec<[T; 2]>) -> Fallible<T, ()> {
         let mut resolved = Vec::new();
         for &place in &*grid {
             if self.meet(place[0])?.is_resolved() {
@@ -312,7 +308,7 @@ impl<T: Real> Search<'_, '_, T> {
     }
 
     /// Finds the maximum in a bracket, and takes it into account.
-    fn climb(&mut self, bracket: [T; 2]) -> Result<(), ContactError<T>> {
+    fn climb(&mut self, bracket: [T; 2]) -> Fallible<T, ()> {
         let Self { integrator, gap, load_case, cost, .. } = self;
         let highest = narrow(bracket, |x, pressures| {
             integrator.pressures(gap, load_case, x, pressures, cost)
@@ -322,7 +318,7 @@ impl<T: Real> Search<'_, '_, T> {
     }
 
     /// Refines the place of the maximum to as many digits as derivatives by parameters need.
-    fn polished(self, on: Interval<T>) -> Result<(T, Estimate<T>), ContactError<T>> {
+    fn polished(self, on: Interval<T>) -> Fallible<T, (T, Estimate<T>)> {
         let mut top = self.top;
         // Half the digits are not enough for derivatives: a Newton step moves the place with the
         // parameters.

@@ -7,7 +7,7 @@ use super::{ContactState, Solution};
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::CauchyTransform;
 use crate::quadrature::{Engine, Estimate, LoadCase};
-use crate::{ContactError, Ends, EvaluationError, Interval, Real, Side, SolveError};
+use crate::{ContactError, Ends, EvaluationError, Fallible, Interval, Real, Side, SolveError};
 
 /// Largest number of points of a contact that [`Pressure::sample`] takes.
 const MAX_SAMPLE: usize = 1 << 20;
@@ -56,7 +56,7 @@ pub struct Pressure<'p, T: Real> {
 
 impl<'p, T: Real> Pressure<'p, T> {
     /// Prepares the pressure, and takes the samples still missing.
-    pub(crate) fn new(solved: Solved<'p, T>) -> Result<Self, ContactError<T>> {
+    pub(crate) fn new(solved: Solved<'p, T>) -> Fallible<T, Self> {
         let Solved { gap, integrator, kappa, found } = solved;
         let contacts = solved.contacts();
         let cost = if contacts.is_empty() { Cost::default() } else { integrator.complete(gap)? };
@@ -86,7 +86,7 @@ impl<T: Real> Pressure<'_, T> {
         T::pressure(self, x)
     }
 
-    pub(crate) fn at_one(&self, x: T) -> Result<T, ContactError<T>> {
+    pub(crate) fn at_one(&self, x: T) -> Fallible<T, T> {
         let x = self.gap.folded(x);
         let estimate = self.estimated(x, &mut Cost::default())?;
         let Estimate { value: pressure, error } = estimate;
@@ -117,7 +117,7 @@ impl<T: Real> Pressure<'_, T> {
         T::pressures(self, x, pressures)
     }
 
-    pub(crate) fn at_all(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+    pub(crate) fn at_all(&self, x: &[T], pressures: &mut [T]) -> Fallible<T, ()> {
         if x.len() != pressures.len() {
             return Err(
                 EvaluationError::LengthMismatch { x: x.len(), pressures: pressures.len() }.into()
@@ -132,7 +132,7 @@ impl<T: Real> Pressure<'_, T> {
 
     /// Fills in all pressures at once if all points are strictly inside and all pressures finite,
     /// otherwise row by row; a row that fails goes point by point.
-    fn fill(&self, x: &[T], pressures: &mut [T], cost: &mut Cost) -> Result<(), ContactError<T>> {
+    fn fill(&self, x: &[T], pressures: &mut [T], cost: &mut Cost) -> Fallible<T, ()> {
         // No early exit from the loops, for speed.
         if x.iter().fold(true, |all, &x| all & self.on.contains(x)) {
             self.integrator.pressures(self.gap, &self.load_case, x, pressures, cost)?;
@@ -212,7 +212,7 @@ impl<T: Real> Pressure<'_, T> {
         self.estimate(x, &mut Cost::default())
     }
 
-    pub(crate) fn estimated(&self, x: T, cost: &mut Cost) -> Result<Estimate<T>, ContactError<T>> {
+    pub(crate) fn estimated(&self, x: T, cost: &mut Cost) -> Fallible<T, Estimate<T>> {
         let (x, range) = (self.gap.folded(x), self.gap.range());
         if !(x >= range[0] && x <= range[1]) {
             return Err(SolveError::OutsideBodies { x, range }.into());
@@ -258,13 +258,13 @@ impl<T: Real> Pressure<'_, T> {
     }
 
     /// Returns the Cauchy transform of the pressure.
-    pub(crate) fn cauchy_transform(&self) -> Result<CauchyTransform<T>, ContactError<T>> {
+    pub(crate) fn cauchy_transform(&self) -> Fallible<T, CauchyTransform<T>> {
         let Self { gap, integrator, load_case, on, .. } = self;
         Ok(CauchyTransform::of(&*integrator.panels_over(gap, *on)?, load_case))
     }
 
     /// Fills in the pressure unchecked, infinite where a slope jumps.
-    pub(crate) fn unchecked(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+    pub(crate) fn unchecked(&self, x: &[T], pressures: &mut [T]) -> Fallible<T, ()> {
         self.integrator.pressures(self.gap, &self.load_case, x, pressures, &mut Cost::default())
     }
 
@@ -275,11 +275,11 @@ impl<T: Real> Pressure<'_, T> {
 }
 
 impl<T: Real> Density<T> for Pressure<'_, T> {
-    fn values(&self, x: &[T], pressures: &mut [T]) -> Result<(), ContactError<T>> {
+    fn values(&self, x: &[T], pressures: &mut [T]) -> Fallible<T, ()> {
         T::density(self, x, pressures)
     }
 
-    fn potential(&self) -> Result<Option<Potential<T>>, ContactError<T>> {
+    fn potential(&self) -> Fallible<T, Option<Potential<T>>> {
         let Self { gap, integrator, load_case, on, .. } = self;
         let LoadCase { kappa, load, .. } = *load_case;
         let panels = integrator.panels_over(gap, *on)?;

@@ -22,7 +22,7 @@ use super::potential::Potential;
 use super::solved::Solved;
 use crate::kernel::{Kernel, Spread, loads, series, terms};
 use crate::numerics::gauss_legendre::GaussLegendre;
-use crate::{ContactError, Ends, EvaluationError, Interval, Pressure, Real};
+use crate::{ContactError, Ends, EvaluationError, Fallible, Interval, Pressure, Real};
 use graded_rule::GradedRule;
 use std::sync::OnceLock;
 
@@ -38,10 +38,10 @@ const MAX_PANELS: usize = 20_000;
 /// Integrated quantity: the pressure, or its rate with the load.
 pub(crate) trait Density<T: Real> {
     /// Fills in the values at places strictly inside the contacts.
-    fn values(&self, x: &[T], values: &mut [T]) -> Result<(), ContactError<T>>;
+    fn values(&self, x: &[T], values: &mut [T]) -> Fallible<T, ()>;
 
     /// Returns the density on a single contact as seen from below, if it has a closed form.
-    fn potential(&self) -> Result<Option<Potential<T>>, ContactError<T>> {
+    fn potential(&self) -> Fallible<T, Option<Potential<T>>> {
         Ok(None)
     }
 }
@@ -178,11 +178,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
 
     /// Returns the coefficients q_k of `P = Σ q_k cos kθ/(π L sin θ)` in one contact, at least some
     /// of them, and more until they vanish, up to a count.
-    fn coefficients(
-        &self,
-        contact: usize,
-        [some, most]: [usize; 2],
-    ) -> Result<Vec<T>, ContactError<T>> {
+    fn coefficients(&self, contact: usize, [some, most]: [usize; 2]) -> Fallible<T, Vec<T>> {
         let mut count = some;
         // As long as that costs less than integrals. Most breakpoints are kinks, but the pressure
         // may be smooth where a period begins.
@@ -220,7 +216,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         vanish.then_some(q)
     }
 
-    fn all_coefficients(&self, contact: usize, count: usize) -> Result<Vec<T>, ContactError<T>> {
+    fn all_coefficients(&self, contact: usize, count: usize) -> Fallible<T, Vec<T>> {
         /// Coefficients that are integrated together.
         const COEFFICIENTS_TOGETHER: usize = 32;
         let on = self.contacts[contact].on;
@@ -251,7 +247,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         least: T,
         x: T,
         kernel: impl Fn(bool, T, T) -> [T; N],
-    ) -> Result<[T; N], ContactError<T>> {
+    ) -> Fallible<T, [T; N]> {
         let mut pending = Vec::new();
         let (mut total, mut size) = ([T::zero(); N], [T::zero(); N]);
         let mut views = Vec::with_capacity(contacts.len());
@@ -308,7 +304,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
 
 impl<T: Real> One<T> {
     /// Returns the kept panels, each computed from the edge nearer to it.
-    fn kept(&self, density: &impl Density<T>) -> Result<&[Kept<T>], ContactError<T>> {
+    fn kept(&self, density: &impl Density<T>) -> Fallible<T, &[Kept<T>]> {
         if let Some(kept) = self.kept.get() {
             return Ok(kept);
         }
@@ -325,7 +321,7 @@ impl<T: Real> One<T> {
             let kept = [bounded([from, to])?, bounded([from, middle])?, bounded([middle, to])?];
             Ok([0, 1, 2].map(|part| graded_rule.seen(&kept, part)))
         };
-        let kept = (0..count).map(keep).collect::<Result<_, ContactError<T>>>()?;
+        let kept = (0..count).map(keep).collect::<Fallible<T, _>>()?;
         Ok(self.kept.get_or_init(|| kept))
     }
 
@@ -348,7 +344,7 @@ impl<T: Real> One<T> {
         density: &impl Density<T>,
         graded_rule: &GradedRule<T>,
         ends: [T; 2],
-    ) -> Result<[T; NODES], ContactError<T>> {
+    ) -> Fallible<T, [T; NODES]> {
         let places = turns(ends).map(|turn| graded_rule.place(turn, self.free));
         let mut bounded = [T::zero(); NODES];
         density.values(&places.map(|(s, _)| s), &mut bounded)?;

@@ -1,7 +1,7 @@
 //! Report of a solve: its attempts and their outcomes.
 
 use crate::Real;
-use crate::{ContactError, SolveError};
+use crate::{ContactError, Fallible, SolveError};
 
 /// Largest number of attempts kept; of more, the last replaces the one before.
 const MAX_ATTEMPTS: usize = 12;
@@ -116,8 +116,8 @@ impl Report {
     pub(crate) fn end<T: Real, R>(
         &mut self,
         start: Start,
-        attempt: Result<(Outcome, R), ContactError<T>>,
-    ) -> Result<R, ContactError<T>> {
+        attempt: Fallible<T, (Outcome, R)>,
+    ) -> Fallible<T, R> {
         let outcome = attempt.as_ref().map_or_else(Outcome::of, |&(outcome, _)| outcome);
         self.add(start, outcome);
         attempt.map(|(_, result)| result)

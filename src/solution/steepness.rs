@@ -2,7 +2,7 @@
 
 use super::Solution;
 use crate::gap::Sampler;
-use crate::{Body, ContactError, Ends, Interval, Real, Side};
+use crate::{Body, ContactError, Ends, Fallible, Interval, Real, Side};
 use std::f64::consts::PI;
 
 /// Slope of a surface above which the half-plane is a poor model of a body. Its error is of the
@@ -153,7 +153,7 @@ impl<T: Real> Solution<'_, T> {
     }
 
     /// Returns the steepest slope but for a share of each contact at either limit.
-    fn steepest_but(&self, edge: T) -> Result<T, ContactError<T>> {
+    fn steepest_but(&self, edge: T) -> Fallible<T, T> {
         let (gap, mut sampler) = (&self.gap, Sampler::default());
         let mut steepest = T::zero();
         for on in self.intervals().iter().map(|&on| but(on, edge)) {

@@ -67,7 +67,9 @@ use crate::gap::Sampler;
 use crate::kernel::Periodic;
 use crate::material::{Coating, checked_ratio};
 use crate::quadrature::panels::CauchyTransform;
-use crate::{Body, ContactError, EvaluationError, InputError, Interval, Pressure, Real, Solution};
+use crate::{
+    Body, ContactError, EvaluationError, Fallible, InputError, Interval, Pressure, Real, Solution,
+};
 use layered::Layered;
 use nalgebra::Complex;
 
@@ -227,7 +229,7 @@ impl<T: Real> Solution<'_, T> {
         T::subsurface(self, Some(body))
     }
 
-    pub(crate) fn below(&self, body: Option<Body>) -> Result<Subsurface<'_, T>, ContactError<T>> {
+    pub(crate) fn below(&self, body: Option<Body>) -> Fallible<T, Subsurface<'_, T>> {
         let layer = self.layer(body)?;
         let (pressure, zero) = (self.pressure()?, T::zero());
         let (mut layered, mut row) = (None, None);
@@ -252,7 +254,7 @@ impl<T: Real> Solution<'_, T> {
     }
 
     /// Returns the layer of a body, if it has one. Both are meant if none is named.
-    fn layer(&self, body: Option<Body>) -> Result<Option<Coating<T>>, ContactError<T>> {
+    fn layer(&self, body: Option<Body>) -> Fallible<T, Option<Coating<T>>> {
         let bodies = self.elasticity.clone();
         let mut layers = bodies.map_or([None, None], |bodies| bodies.map(|body| body.layer));
         let is_known = self.gap.bend().is_none_or(|bend| bend.kernel_of_bodies().is_of_bodies);
@@ -329,7 +331,7 @@ impl<T: Real> Subsurface<'_, T> {
         T::stress(self, x, depth)
     }
 
-    pub(crate) fn stress(&self, x: T, depth: T) -> Result<Stress<T>, ContactError<T>> {
+    pub(crate) fn stress(&self, x: T, depth: T) -> Fallible<T, Stress<T>> {
         let x = self.solution.gap.folded(x);
         let [mut normal, along] = self.parts(x, depth, !self.friction.is_zero())?;
         if let Some(layered) = &self.layered {
@@ -349,12 +351,7 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Returns the stress under the pressure, and the stress under an equal traction, which is
     /// valid on the surface only if `with_traction`.
-    fn parts(
-        &self,
-        x: T,
-        depth: T,
-        with_traction: bool,
-    ) -> Result<[Stress<T>; 2], ContactError<T>> {
+    fn parts(&self, x: T, depth: T, with_traction: bool) -> Fallible<T, [Stress<T>; 2]> {
         if !(x.is_finite() && depth.is_finite() && depth >= T::zero()) {
             return Err(EvaluationError::AboveSurface { x, depth }.into());
         }
@@ -393,7 +390,7 @@ impl<T: Real> Subsurface<'_, T> {
         transform: &CauchyTransform<T>,
         x: T,
         with_traction: bool,
-    ) -> Result<[Stress<T>; 2], ContactError<T>> {
+    ) -> Fallible<T, [Stress<T>; 2]> {
         let touches = self.solution.intervals().iter().any(|on| x >= on.left && x <= on.right);
         let mut pressure = [T::zero()];
         if Interval::find(self.solution.intervals(), x).1.is_some() {

@@ -23,11 +23,11 @@ mod marks;
 mod potential;
 
 use crate::kernel::Kernel;
+use crate::numerics::by_size;
 use crate::numerics::dot;
 use crate::{ContactError, Ends, Fallible, Interval, Real};
 use forces::{line, sum};
 use potential::{CellPlace, Potential};
-use std::cmp::Ordering::Equal;
 
 /// Number of cells at first; twice as many after a failed check may resolve more.
 pub(super) const FIRST_CELLS: usize = 33;
@@ -249,10 +249,8 @@ impl<'s, T: Real> ActiveSet<'s, T> {
     }
 
     fn lowest(&self) -> Option<usize> {
-        let by_height = |&i: &usize, &j: &usize| {
-            let [one, other] = [i, j].map(|i| self.cells[i].height);
-            one.partial_cmp(&other).unwrap_or(Equal)
-        };
+        let by_height =
+            |&i: &usize, &j: &usize| by_size(&self.cells[i].height, &self.cells[j].height);
         (0..self.cells.len()).min_by(by_height)
     }
 
@@ -297,7 +295,7 @@ impl<'s, T: Real> ActiveSet<'s, T> {
             self.cells[i].height + share * (self.cells[j].height - self.cells[i].height)
         };
         let pairs = (0..middle).flat_map(|i| (middle..arms.len()).map(move |j| [i, j]));
-        let by_line = |one: &_, other: &_| line(one).partial_cmp(&line(other)).unwrap_or(Equal);
+        let by_line = |one: &_, other: &_| by_size(&line(one), &line(other));
         let lowest = self.lowest().unwrap_or(0);
         pairs.min_by(by_line).unwrap_or([lowest; 2])
     }

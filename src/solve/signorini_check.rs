@@ -11,14 +11,12 @@ mod outside;
 mod passed;
 
 use super::exterior_field::{ExteriorField, ExteriorFields, POINTS};
-use super::newton::several::CLOSED_WIDTH;
 use crate::gap::{Cost, Gap};
 use crate::quadrature::panels::PanelIntegrator;
 use crate::quadrature::{Engine, Integrator, LoadCase};
-use crate::solution::{Closeness, ContactState, Inside, Tensions};
+use crate::solution::{Closeness, ContactState, Inside, Tensions, least_width, parting};
 use crate::{Ends, Extremum, Fallible, Interval, Real, Side};
 pub(super) use passed::{Passed, Under};
-use std::cmp::Ordering;
 
 /// Largest number of places with tension whose uncertainty is estimated.
 const MAX_DOUBTFUL: usize = 256;
@@ -28,10 +26,6 @@ const MAX_POINTS: usize = 4096;
 
 /// Least distance of such a place from a limit, in units of rounding of the contact.
 const LEAST_FROM_LIMIT: f64 = 8.0;
-
-/// Number of places between a tension and the end of the contact at which the pressure is
-/// evaluated: enough to halve the distance down to rounding.
-const HALVES: i32 = 52;
 
 /// Slopes that leave the pressure as it is, as a share of those of a wave whose pressure would be
 /// the least one found: κ/π times its slope.
@@ -89,12 +83,6 @@ impl<T: Real> Overlaps<T> {
         let dips = self.dips.iter().copied();
         dips.reduce(|worst, dip| if dip[1] < worst[1] { dip } else { worst })
     }
-}
-
-fn by_size<T: Real>(one: T, other: T) -> Ordering {
-    // NaN first.
-    let is_number = |value: T| value.partial_cmp(&value).is_some();
-    one.partial_cmp(&other).unwrap_or_else(|| is_number(one).cmp(&is_number(other)))
 }
 
 impl<T: Real> SignoriniCheck<'_, T> {
@@ -208,10 +196,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         for (i, field) in fields.each.iter().enumerate() {
             self.look_into(i, field, tensions, uneven)?;
         }
-        let found = &mut tensions.found;
-        found.sort_by(|one, other| by_size(one.value, other.value));
+        tensions.sort();
         let mut worst = None;
-        for &Extremum { x, value: pressure } in found.iter().take(MAX_DOUBTFUL) {
+        for &Extremum { x, value: pressure } in tensions.found.iter().take(MAX_DOUBTFUL) {
             if tension_spans.iter().any(|span| span.contains(x)) {
                 continue;
             }
@@ -223,10 +210,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
                     continue;
                 }
             }
-            let left = self.presses_from(x, Side::Left)?;
-            let span = Interval { left, right: self.presses_from(x, Side::Right)? };
-            // A pressure that is no number is none of a gap that is closed.
-            let is_closed = pressure < T::zero() && span.half_width() <= self.least_width(x);
+            let on = self.contacts.iter().find(|on| on.contains(x));
+            let on = *on.unwrap_or(&self.found.interval);
+            let least = least_width(self.gap, self.found.interval, x);
+            let pressures = &|x: &[T], out: &mut [T]| self.pressures(x, out);
+            let (span, is_closed) = parting(pressures, on, [x, pressure], least)?;
             if !is_closed {
                 worst.get_or_insert([x, pressure]);
                 tension_spans.push(span);
@@ -262,29 +250,5 @@ impl<T: Real> SignoriniCheck<'_, T> {
         self.panels.uneven(contact, |x| faint / inside.factor(x), uneven);
         let mut uneven = uneven.iter().filter(|&&span| !self.is_pressed(span));
         uneven.try_for_each(|&span| inside.bound(span, found))
-    }
-
-    /// Returns the width below which a gap in a contact, as at a hollow corner, counts as closed:
-    /// by the rounding of x, or by that of the heights over the fall of the slope. (Less than a
-    /// share √ε of the contact, which changes the rest by a share ε.)
-    fn least_width(&self, x: T) -> T {
-        let ([jump, .., height], on) = (self.gap.jump(x), self.found.interval);
-        let by_height = if jump < T::zero() { height / -jump } else { T::zero() };
-        let rounding = T::epsilon() * (on.left.abs().max(on.right.abs()) + by_height);
-        (T::of(CLOSED_WIDTH) * rounding).min(T::epsilon().sqrt() * on.half_width())
-    }
-
-    /// Returns the nearest place with pressure to one without, among places each twice as far away
-    /// as the one before; or else the end of the contact.
-    fn presses_from(&self, x: T, side: Side) -> Fallible<T, T> {
-        let on = self.contacts.iter().find(|on| on.contains(x)).unwrap_or(&self.found.interval);
-        let end = on[side];
-        let share = |times: i32| T::of(0.5).powi(times);
-        let places: Vec<T> = (1..=HALVES).rev().map(|i| x + (end - x) * share(i)).collect();
-        let mut pressures = vec![T::zero(); places.len()];
-        self.pressures(&places, &mut pressures)?;
-        let mut both = places.iter().zip(&pressures);
-        let first = both.find(|&(&place, &pressure)| place != x && pressure > T::zero());
-        Ok(first.map_or(end, |(&place, _)| place))
     }
 }

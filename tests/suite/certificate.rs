@@ -366,8 +366,9 @@ fn a_budget_that_is_spent() {
 
 #[test]
 fn kinks_and_edges_that_lift() {
-    // A kink downwards, however small, parts the bodies; one upwards does not.
-    for slope in [1e-6, 1e-4, 0.125] {
+    // A kink downwards parts the bodies, and one upwards does not; a gap narrower than the rounding
+    // of x or of the heights is not told from none.
+    for (slope, is_told) in [(1e-6, false), (1e-4, false), (0.03, false), (0.125, true)] {
         let kink = |s: f64| {
             join(vec![
                 graph(-3.0, 0.0, move |x| [x * x / 2.0 + s * x, x + s]),
@@ -376,15 +377,19 @@ fn kinks_and_edges_that_lift() {
         };
         let solve = |body: &Profile| {
             let contact = Contact::new(&Flat, &**body)?.certified(true).single_interval(true);
-            contact.solve(Control::Load(1.5 / PI)).map(|_| ())
+            contact.solve(Control::Load(1.5 / PI))?.certify()
         };
-        assert_eq!(solve(&kink(-slope)), Ok(()));
-        let down = kink(slope);
-        let error = solve(&down).unwrap_err();
-        let ContactError::Solve(SolveError::Tension { x, pressure, .. }) = error else {
-            panic!("{error}")
-        };
-        assert_eq!([x, pressure], [0.0, f64::NEG_INFINITY]);
+        assert!(solve(&kink(-slope)).unwrap().is_proved());
+        match solve(&kink(slope)) {
+            Err(ContactError::Solve(SolveError::Tension { x, pressure, .. })) if is_told => {
+                assert_eq!([x, pressure], [0.0, f64::NEG_INFINITY]);
+            }
+            Ok(proof) if !is_told => {
+                let least = proof.pressure.unwrap();
+                assert!([least.x, least.value] == [0.0; 2] && !proof.is_proved(), "{proof:?}");
+            }
+            other => panic!("{slope}: {other:?}"),
+        }
     }
     // A tilted punch, F - m x: it lifts at the right edge once m l > F; beyond its corners there is
     // nothing to touch.
@@ -634,7 +639,7 @@ fn a_kink_downwards_far_out() {
         };
         join(vec![side(x - 4.0, x, s), side(x, x + 4.0, -s)])
     };
-    for (x, s) in [(700.0, 1.0 / 3.0), (-1e5, 0.1), (1e7, 0.3)] {
+    for (x, s) in [(700.0, 1.0 / 3.0), (-1e5, 0.2), (1e7, 0.3)] {
         let body = kink(x, s);
         let contact = Contact::new(&Flat, &*body).unwrap().single_interval(true);
         let error = contact.solve(Control::Load(1.0)).unwrap().certify().unwrap_err();

@@ -299,7 +299,7 @@ fn a_shallow_hollow_corner_is_closed_by_a_load() {
 #[test]
 fn random_polygons_touch_under_any_load() {
     let scenes = std::env::var("SCENES").map_or(40, |n| n.parse().unwrap());
-    let [mut undecided, mut refused] = [0; 2];
+    let mut refused = 0;
     // The others were refused, or wrong.
     for seed in (0..scenes).chain([60, 87, 116, 157, 207]) {
         let mut dice = Dice::new(seed);
@@ -331,17 +331,9 @@ fn random_polygons_touch_under_any_load() {
             assert!(grows, "{scene}: {cold}");
             last = on;
             if i % 4 == 0 {
-                match cold.certify() {
-                    // The height of a gap some 1e-12 wide is not told, nor a narrower gap.
-                    Err(ContactError::Solve(
-                        SolveError::Undecided { .. }
-                        | SolveError::Tension { pressure: f64::NEG_INFINITY, .. },
-                    )) => undecided += 1,
-                    proof => _ = proof.unwrap_or_else(|error| panic!("{scene}: {error}")),
-                }
+                cold.certify().unwrap_or_else(|error| panic!("{scene}: {error}"));
             }
         }
     }
     assert!(refused <= scenes * 12 / 2000, "{refused} refused");
-    assert!(undecided <= scenes * 3 / 20, "{undecided} undecided");
 }

@@ -181,3 +181,23 @@ fn a_contact_that_ends_hardly_beyond_a_joint() {
         }
     }
 }
+
+/// A limit that the last step moves from one side of a plain joint to the other, within the
+/// rounding of x, takes no other start.
+#[test]
+fn a_joint_within_rounding_of_a_limit_is_as_none() {
+    let well = |x: f64| [(x * x - 1.0).powi(2), 4.0 * x * (x * x - 1.0)];
+    for i in 0..40 {
+        let load = Control::Load(0.01 * 250f64.powf(f64::from(i) / 39.0));
+        let whole = graph(-2.0, 2.0, well);
+        let limits = on_flat(whole).solve(load).unwrap().intervals().to_vec();
+        for limit in limits.iter().flat_map(|on| [on.left, on.right]) {
+            for ulps in -2..=2 {
+                let at = f64::from_bits(limit.to_bits().wrapping_add_signed(ulps));
+                let body = join(vec![graph(-2.0, at, well), graph(at, 2.0, well)]);
+                let solution = on_flat(body).solve(load).unwrap();
+                assert_eq!(solution.report().attempts().len(), 1, "{load:?}, {at}: {solution}");
+            }
+        }
+    }
+}

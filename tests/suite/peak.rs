@@ -8,7 +8,7 @@ use linecontact::profile::rounded_punch;
 use linecontact::reference::{ClosedForm, RoundedPunch};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, EvaluationError, Flat, Midpoint,
-    Piecewise, SolveError,
+    Piecewise,
 };
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -89,11 +89,10 @@ fn of_many_pieces_one_of_which_has_a_corner() {
     let contact = Contact::new(&Flat, &down).unwrap().single_interval(true);
     let solution = contact.solve(Control::Load(0.02)).unwrap();
     assert!(solution.peak().is_ok());
-    let found = solution.certify();
-    assert!(
-        matches!(found, Err(ContactError::Solve(SolveError::Tension { x, .. })) if x == end(517)),
-        "{found:?}"
-    );
+    // The bodies part over far less than a rounding of x.
+    let proof = solution.certify().unwrap();
+    let least = proof.pressure.unwrap();
+    assert!([least.x, least.value] == [end(517), 0.0] && !proof.is_proved(), "{proof:?}");
 }
 
 #[test]

@@ -18,7 +18,7 @@ use super::panel::Panel;
 use super::{Node, Survey, hull_in};
 use crate::gap::{Cost, Gap};
 use crate::real::same;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Fallible, Interval, Real};
 
 /// Number of evaluations beyond which no more are taken for a proof alone.
 const MAX_FOR_PROOF: usize = 81;
@@ -81,7 +81,7 @@ impl<T: Real> Survey<T> {
         on: Interval<T>,
         load: T,
         cost: &mut Cost,
-    ) -> Result<bool, ContactError<T>> {
+    ) -> Fallible<T, bool> {
         loop {
             let level = self.level_reached(gap, on, load);
             if self.is_untouched_beyond(gap, on, level) {
@@ -106,7 +106,7 @@ impl<T: Real> Survey<T> {
         gap: &Gap<'_, T>,
         open: [&[[T; 2]]; 2],
         cost: &mut Cost,
-    ) -> Result<bool, ContactError<T>> {
+    ) -> Fallible<T, bool> {
         let (mut more, mut converges) = (0, true);
         for (body, (surface, open)) in self.bodies.iter().zip(gap.bodies.iter().zip(open)) {
             more += body.cost(surface, open, |panel| panel.may_gain(T::zero()));

@@ -10,9 +10,9 @@ use super::lows::segment;
 use super::panel::{Missed, Panel};
 use super::{Cost, Node, Survey};
 use crate::gap::{Gap, Surface};
+use crate::numerics::by_size;
 use crate::real::same;
-use crate::{ContactError, Interval, Real};
-use std::cmp::Ordering::Equal;
+use crate::{ContactError, Fallible, Interval, Real};
 
 /// Default distance of points, in widths of the narrowest feature to be seen.
 const PROBE_SPACING: f64 = 4.0;
@@ -122,7 +122,7 @@ impl<T: Real> Survey<T> {
         contacts: &[Interval<T>],
         stretches: &mut Vec<Stretch<T>>,
         cost: &mut Cost,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         for _ in 0..MAX_ROUNDS {
             self.list_stretches(gap, T::of(LOAD_AHEAD) * load, contacts, stretches);
             let is_seen =
@@ -207,7 +207,7 @@ impl<T: Real> Survey<T> {
                     on.iter_mut().filter(is_long).for_each(Panel::void);
                 }
             }
-            changed.sort_by(|one, other| one[0].partial_cmp(&other[0]).unwrap_or(Equal));
+            changed.sort_by(|one, other| by_size(&one[0], &other[0]));
             changed.dedup_by(|next, on| {
                 let meets = next[0] <= on[1];
                 on[1] = if meets { on[1].max(next[1]) } else { on[1] };
@@ -232,7 +232,7 @@ impl<T: Real> Survey<T> {
         stretches: &[Stretch<T>],
         load: T,
         cost: &mut Cost,
-    ) -> Result<bool, ContactError<T>> {
+    ) -> Fallible<T, bool> {
         let tolerance = T::of(MAX_AT_FOOT) * load;
         let mut is_finer = false;
         for _ in 0..MAX_ROUNDS {
@@ -318,7 +318,7 @@ impl<T: Real> Survey<T> {
         gap: &Gap<'_, T>,
         stretches: &[Stretch<T>],
         cost: Cost,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         let [Some(first), Some(last)] = [stretches.first(), stretches.last()] else {
             return Ok(());
         };

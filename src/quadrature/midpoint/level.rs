@@ -17,7 +17,7 @@
 use crate::gap::{Cost, Gap, Sampler};
 use crate::numerics::CompensatedSum;
 use crate::real::same;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Fallible, Interval, Real};
 
 /// Point x at which the integral is wanted; the slope there is sampled when first needed.
 pub(super) struct Pole<'g, T: Real> {
@@ -38,7 +38,7 @@ impl<'g, T: Real> Pole<'g, T> {
         self.sampler.cost
     }
 
-    fn slope(&mut self) -> Result<T, ContactError<T>> {
+    fn slope(&mut self) -> Fallible<T, T> {
         match self.slope {
             Some(slope) => Ok(slope),
             None => Ok(*self.slope.insert(self.sampler.slope(self.gap, self.x)?)),
@@ -168,12 +168,7 @@ impl<T: Real> Level<T> {
     }
 
     /// Returns `(g(z) - g(t_i))/(z - t_i)` for z a fraction `delta` of a segment from t_i.
-    fn divided_difference(
-        &self,
-        pole: &mut Pole<'_, T>,
-        i: usize,
-        delta: T,
-    ) -> Result<T, ContactError<T>> {
+    fn divided_difference(&self, pole: &mut Pole<'_, T>, i: usize, delta: T) -> Fallible<T, T> {
         let n = T::count(self.n);
         // Half spreads of 1/8, 2/8, 3/8 of a segment about the middle of z and t_i, and the
         // polynomial of degree two in the square of the half spread through them.

@@ -18,7 +18,7 @@
 
 use crate::gap::{Gap, Sampler};
 use crate::quadrature::Moments;
-use crate::{ContactError, Interval, Real};
+use crate::{Fallible, Interval, Real};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
@@ -48,7 +48,7 @@ pub(super) fn moments<T: Real>(
     sampler: &mut Sampler<T>,
     gap: &Gap<'_, T>,
     on: Interval<T>,
-) -> Result<Moments<T>, ContactError<T>> {
+) -> Fallible<T, Moments<T>> {
     let mut angles: Vec<T> = vec![T::pi()];
     angles.extend(gap.breakpoints(on).map(|x| on.angle(x)));
     angles.push(T::zero());
@@ -128,7 +128,7 @@ impl<T: Real> Segment<T> {
         sampler: &mut Sampler<T>,
         gap: &Gap<'_, T>,
         on: Interval<T>,
-    ) -> Result<bool, ContactError<T>> {
+    ) -> Fallible<T, bool> {
         let Some(weights) = WEIGHTS.get(self.rule) else { return Ok(false) };
         let stride = FINEST / (weights.len() + 1);
         let width = self.to - self.from;

@@ -12,7 +12,7 @@ use super::panel::Panel;
 use crate::gap::{Added, Cost, Gap, SampleCache, Sampler, Survey};
 use crate::numerics::chebyshev::{Coeffs, MAX_SIZE, size_for};
 use crate::profile::Noise;
-use crate::{Body, ContactError, Ends, Interval, Real, Side};
+use crate::{Body, ContactError, Ends, Fallible, Interval, Real, Side};
 use candidate::{Candidate, FALL_OF_A_ROOT, FEW_ULPS, LEVELS_OF_A_WAVE, MAX_AT_JUMP, is_long};
 use num_traits::ToPrimitive;
 use sampling::{LEVELS_OF_A_STEP, SampledBody};
@@ -254,11 +254,7 @@ impl<T: Real> PanelSet<T> {
         Ok(())
     }
 
-    fn extend_as_described(
-        &mut self,
-        gap: &Gap<'_, T>,
-        on: Interval<T>,
-    ) -> Result<(), ContactError<T>> {
+    fn extend_as_described(&mut self, gap: &Gap<'_, T>, on: Interval<T>) -> Fallible<T, ()> {
         let Some(have) = self.interval() else {
             self.sample(gap, on, 0, None)?;
             self.at_first = self.panels.len();
@@ -317,7 +313,7 @@ impl<T: Real> PanelSet<T> {
         on: Interval<T>,
         known: usize,
         neighbour: Option<Panel<T>>,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         let (mut left, mut known) = (on.left, known);
         loop {
             let breakpoint = gap.breakpoint_after(left).filter(|&breakpoint| breakpoint < on.right);
@@ -338,7 +334,7 @@ impl<T: Real> PanelSet<T> {
         x: [T; 2],
         begin: usize,
         neighbour: Option<Panel<T>>,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         self.waiting.clear();
         // The noise measured last belongs to other pieces, or to other parts of these.
         (self.noise, self.measured) = (None, 0);
@@ -480,7 +476,7 @@ impl<T: Real> PanelSet<T> {
 
     /// Tells whether the coefficients of a panel are noise, not a wave: on a small part of the
     /// panel, noise does not fall.
-    fn is_noisy(&mut self, gap: &Gap<'_, T>, panel: &Panel<T>) -> Result<bool, ContactError<T>> {
+    fn is_noisy(&mut self, gap: &Gap<'_, T>, panel: &Panel<T>) -> Fallible<T, bool> {
         const N: usize = 8;
         let [left, right] = panel.x;
         // Avoids the middle, where a formula may be more exact than elsewhere.

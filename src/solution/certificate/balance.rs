@@ -2,7 +2,7 @@
 
 use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
-use crate::{ContactError, Real, Side, SolveError};
+use crate::{Fallible, Real, Side, SolveError};
 
 /// Checks with the cells that the limits are where they were found: the remaining Newton steps, as
 /// strengths at the limits, must be within the error estimated by the solver and the uncertainty of
@@ -13,7 +13,7 @@ pub(super) fn balanced<T: Real>(
     cells: &Several<T>,
     system: &mut System<T>,
     doubt: T,
-) -> Result<(), ContactError<T>> {
+) -> Fallible<T, ()> {
     let n = system.residual.len();
     let (mut steps, mut open) = (Vec::new(), vec![T::zero(); n]);
     if system.factor() {

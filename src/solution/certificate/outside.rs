@@ -14,7 +14,7 @@ use crate::numerics::chebyshev::{Table, primitive, value_at};
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::quadrature::panels::{Panel, Several, System};
 use crate::solution::check::{bounds, extremes, least, nearer, truncation_error};
-use crate::{ContactError, Interval, Real, Side};
+use crate::{ContactError, Fallible, Interval, Real, Side};
 
 /// Number of nodes of a cell.
 const CELL_NODES: usize = 24;
@@ -143,12 +143,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
     }
 
     /// Takes the next panel outward.
-    fn take(
-        &mut self,
-        panel: &Panel<T>,
-        left_out: &mut T,
-        cost: Cost,
-    ) -> Result<(), ContactError<T>> {
+    fn take(&mut self, panel: &Panel<T>, left_out: &mut T, cost: Cost) -> Fallible<T, ()> {
         let length = panel.x[1] - panel.x[0];
         let rounding = T::of(16.0) * T::epsilon();
         *left_out += length * (panel.error + rounding * panel.series[0].abs());
@@ -205,7 +200,7 @@ impl<'o, T: Real> OutsideOf<'o, T> {
         whole: [T; 2],
         allowed: T,
         cost: Cost,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         let (half, table, sign) = (T::of(0.5), Table::of(CELL_NODES), self.sign());
         // Rate of change of g: the rounding of x costs a part of it.
         let bends = panel.coefficients().iter().enumerate();

@@ -9,16 +9,21 @@
 
 use super::series_bounds::{bounds, least, truncation_error};
 use super::{Closeness, Extremum, nearer};
+use crate::numerics::by_size;
 use crate::numerics::chebyshev::Table;
-use crate::{ContactError, Ends, Interval, Real};
+use crate::{ContactError, Ends, Fallible, Interval, Real, Side};
 
 /// Number of nodes of a cell.
 const NODES: usize = 16;
 /// Largest number of cells in all.
 const MAX_CELLS: usize = 1 << 16;
 
+/// Number of places between a tension and the end of the contact at which the pressure is
+/// evaluated: enough to halve the distance down to rounding.
+const HALVES: i32 = 52;
+
 /// Pressures at places.
-pub(crate) type Pressures<'c, T> = &'c dyn Fn(&[T], &mut [T]) -> Result<(), ContactError<T>>;
+pub(crate) type Pressures<'c, T> = &'c dyn Fn(&[T], &mut [T]) -> Fallible<T, ()>;
 
 /// Nodes of a cell, and the pressures there.
 type Cell<T> = [[T; NODES]; 2];
@@ -65,9 +70,9 @@ impl<T: Real> Tensions<T> {
         (self.ratio, self.cells, self.given_up) = (Some(known), 0, None);
     }
 
-    /// Returns the deepest tension; NaN if that was met first.
-    pub fn worst(&self) -> Option<Extremum<T>> {
-        self.found.iter().fold(None, |worst, &place| nearer(Some(place), worst))
+    /// Sorts the places by their pressures, the deepest tension first.
+    pub fn sort(&mut self) {
+        self.found.sort_by(|one, other| by_size(&one.value, &other.value));
     }
 
     /// Records pressures that are tensions.
@@ -94,7 +99,7 @@ impl<T: Real> Inside<'_, T> {
     /// it, from pressures at the Chebyshev nodes of the contact. It is negative if they do not show
     /// it.
     pub fn least<const N: usize>(&self, x: &[T; N], pressures: &[T; N]) -> T {
-        match self.sign(&self.series(x, pressures), T::zero()) {
+        match self.sign(&self.series(x, pressures), T::zero(), T::zero()) {
             Sign::Above(least) | Sign::OfLeast([_, least]) => least,
             Sign::Open => -T::one(),
         }
@@ -114,7 +119,9 @@ impl<T: Real> Inside<'_, T> {
             let place = |s: T| (middle + s * half).max(from).min(to);
             let Some([x, pressures]) = self.cell([from, to])? else { continue };
             let known = found.ratio.map_or(T::one() / T::zero(), |ratio| ratio.value);
-            let sign = self.sign(&self.series(&x, &pressures), known);
+            // Next to a narrow gap the rounding of x is all that the series leaves out.
+            let rounding = T::of(16.0) * T::epsilon() * from.abs().max(to.abs()) / (to - from);
+            let sign = self.sign(&self.series(&x, &pressures), known, rounding.min(T::one()));
             if let Sign::OfLeast([s, value]) = sign {
                 found.ratio = nearer(Some(Extremum { x: place(s), value }), found.ratio);
                 if value < -self.allowed {
@@ -146,8 +153,9 @@ impl<T: Real> Inside<'_, T> {
         Ok(())
     }
 
-    /// Returns the sign of a series, or that it is above a known ratio.
-    fn sign<const N: usize>(&self, series: &[T; N], known: T) -> Sign<T> {
+    /// Returns the sign of a series, or that it is above a known ratio, as soon as the truncation
+    /// error is a share of the least value that is rounding.
+    fn sign<const N: usize>(&self, series: &[T; N], known: T, rounding: T) -> Sign<T> {
         let left_out = truncation_error(series);
         let size = series.iter().fold(T::zero(), |max, a| max.max(a.abs()));
         let bound = bounds(series)[0] - left_out;
@@ -160,7 +168,7 @@ impl<T: Real> Inside<'_, T> {
             let enough = if bound > T::zero() { coarse } else { T::of(1e-4) * self.allowed };
             return Sign::OfLeast(least(series, enough));
         }
-        let share = T::of(self.closeness.share);
+        let share = T::of(self.closeness.share).max(rounding);
         let rough = (share > T::zero()).then(|| least(series, T::of(0.5) * left_out));
         let is_known = |&[_, value]: &[T; 2]| left_out <= share * value.abs();
         rough.filter(is_known).map_or(Sign::Open, Sign::OfLeast)
@@ -168,7 +176,7 @@ impl<T: Real> Inside<'_, T> {
 
     /// Returns the nodes of a cell and the pressures there; `None` if they do not fit between its
     /// ends.
-    fn cell(&self, [from, to]: [T; 2]) -> Result<Option<Cell<T>>, ContactError<T>> {
+    fn cell(&self, [from, to]: [T; 2]) -> Fallible<T, Option<Cell<T>>> {
         let (half, table) = (T::of(0.5), Table::of(NODES));
         let (middle, reach) = (half * from + half * to, half * (to - from));
         let x: [T; NODES] = std::array::from_fn(|i| middle + reach * T::of(table.z[i]));
@@ -198,6 +206,30 @@ impl<T: Real> Inside<'_, T> {
     }
 }
 
+/// Returns the span of tension around a place `[x, P]` in a contact, and whether it counts as
+/// closed. It reaches to the nearest pressure on each side, among places each twice as far away as
+/// the one before, or else to the end of the contact.
+pub(crate) fn parting<T: Real>(
+    pressures: Pressures<'_, T>,
+    on: Interval<T>,
+    [x, pressure]: [T; 2],
+    least_width: T,
+) -> Fallible<T, (Interval<T>, bool)> {
+    let presses_from = |side: Side| -> Fallible<T, T> {
+        let end = on[side];
+        let share = |times: i32| T::of(0.5).powi(times);
+        let places: Vec<T> = (1..=HALVES).rev().map(|i| x + (end - x) * share(i)).collect();
+        let mut found = vec![T::zero(); places.len()];
+        pressures(&places, &mut found)?;
+        let mut both = places.iter().zip(&found);
+        let first = both.find(|&(&place, &pressure)| place != x && pressure > T::zero());
+        Ok(first.map_or(end, |(&place, _)| place))
+    };
+    let span = Interval { left: presses_from(Side::Left)?, right: presses_from(Side::Right)? };
+    // A pressure that is no number is none of a gap that is closed.
+    Ok((span, pressure < T::zero() && span.half_width() <= least_width))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -221,7 +253,8 @@ mod tests {
                 inside.look_at(&[0.1], &mut found).unwrap();
                 inside.bound([-0.2, 0.1], &mut found).unwrap();
                 inside.bound([0.1, 0.2], &mut found).unwrap();
-                let is_unknown = found.worst().is_some_and(|worst| worst.value.is_nan());
+                found.sort();
+                let is_unknown = found.found.first().is_some_and(|worst| worst.value.is_nan());
                 assert_eq!(is_unknown, hidden > 0.0, "{hidden}: {:?}", found.found);
             }
         }
@@ -245,9 +278,11 @@ mod tests {
                 let inside = Inside { pressures: &pressures, on, free, allowed: 1e-12, closeness };
                 let span = [-1.0, 1.0].map(|end: f64| end * (5.0 * width).min(1.0));
                 inside.bound(span, &mut found).unwrap();
-                assert_eq!(found.worst().is_some(), least < 0.0, "{least} {width}");
-                let near = found.worst().is_none_or(|worst| (worst.x - 0.0123).abs() < 0.1 * width);
-                assert!(near, "{least} {width}: {:?}", found.worst());
+                found.sort();
+                let worst = found.found.first();
+                assert_eq!(worst.is_some(), least < 0.0, "{least} {width}");
+                let near = worst.is_none_or(|worst| (worst.x - 0.0123).abs() < 0.1 * width);
+                assert!(near, "{least} {width}: {worst:?}");
             }
         }
     }

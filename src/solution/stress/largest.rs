@@ -3,8 +3,8 @@
 use super::super::peak::{places, rises};
 use super::super::pressure_integral::Density;
 use super::{Stress, StressPeak, Subsurface, checked_ratio};
-use crate::{ContactError, EvaluationError, Interval, Real, Side};
-use std::cmp::Ordering;
+use crate::numerics::by_size;
+use crate::{ContactError, EvaluationError, Fallible, Interval, Real, Side};
 
 /// Number of abscissae and of depths on the first grid.
 const COLUMNS: usize = 33;
@@ -49,7 +49,7 @@ impl<T: Real> Subsurface<'_, T> {
         T::largest_shear(self)
     }
 
-    pub(crate) fn largest_shear(&self) -> Result<StressPeak<T>, ContactError<T>> {
+    pub(crate) fn largest_shear(&self) -> Fallible<T, StressPeak<T>> {
         self.check_surface(false)?;
         self.largest(|stress| Ok(stress.max_shear()))
     }
@@ -65,14 +65,14 @@ impl<T: Real> Subsurface<'_, T> {
         T::largest_von_mises(self, poisson)
     }
 
-    pub(crate) fn largest_von_mises(&self, poisson: T) -> Result<StressPeak<T>, ContactError<T>> {
+    pub(crate) fn largest_von_mises(&self, poisson: T) -> Fallible<T, StressPeak<T>> {
         let poisson = checked_ratio(poisson, None)?;
         self.check_surface(poisson != T::of(0.5))?;
         self.largest(|stress| stress.von_mises(poisson))
     }
 
     /// Refuses edges and breakpoints at which the stress is infinite, if the surface is looked at.
-    fn check_surface(&self, at_all_tips: bool) -> Result<(), ContactError<T>> {
+    fn check_surface(&self, at_all_tips: bool) -> Fallible<T, ()> {
         if self.depths[0] > T::zero() {
             return Ok(());
         }
@@ -82,10 +82,7 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Refuses edges of infinite pressure, if the stress is infinite for a side, its place and its
     /// strength.
-    pub(super) fn check_edges(
-        &self,
-        is_infinite: impl Fn(Side, T, T) -> bool,
-    ) -> Result<(), ContactError<T>> {
+    pub(super) fn check_edges(&self, is_infinite: impl Fn(Side, T, T) -> bool) -> Fallible<T, ()> {
         let least = T::of(64.0) * T::epsilon() * self.solution.mean_pressure().abs();
         // If several edges are singular, the error names the rightmost.
         for (i, side, strength) in self.solution.solved().held_limits() {
@@ -98,7 +95,7 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     /// Refuses breakpoints at which the pressure is infinite: all of them, or those that slip.
-    fn check_tips(&self, all: bool) -> Result<(), ContactError<T>> {
+    fn check_tips(&self, all: bool) -> Fallible<T, ()> {
         if !all && self.friction.is_zero() {
             return Ok(());
         }
@@ -115,7 +112,7 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     /// Lists the breakpoints at which the pressure is infinite, from left to right.
-    fn tips(&self) -> Result<Vec<T>, ContactError<T>> {
+    fn tips(&self) -> Fallible<T, Vec<T>> {
         let Self { solution, pressure, .. } = self;
         let inside = |&on: &Interval<T>| solution.gap.breakpoints(on);
         let mut breakpoints: Vec<_> = solution.intervals().iter().flat_map(inside).collect();
@@ -126,10 +123,7 @@ impl<T: Real> Subsurface<'_, T> {
         Ok(breakpoints)
     }
 
-    fn largest(
-        &self,
-        value: impl Fn(Stress<T>) -> Result<T, ContactError<T>>,
-    ) -> Result<StressPeak<T>, ContactError<T>> {
+    fn largest(&self, value: impl Fn(Stress<T>) -> Fallible<T, T>) -> Fallible<T, StressPeak<T>> {
         let mut best: Option<StressPeak<T>> = None;
         for (contact, &on) in self.solution.intervals().iter().enumerate() {
             let features = self.features(contact, on)?;
@@ -146,7 +140,7 @@ impl<T: Real> Subsurface<'_, T> {
 
     /// Lists places on the surface of a contact: its grid of pressures, and the places where stress
     /// concentrates.
-    fn features(&self, contact: usize, on: Interval<T>) -> Result<Features<T>, ContactError<T>> {
+    fn features(&self, contact: usize, on: Interval<T>) -> Fallible<T, Features<T>> {
         let grid = self.grid(contact, on);
         let mut pressures = vec![T::zero(); grid.len()];
         self.pressure.values(&grid, &mut pressures)?;
@@ -205,7 +199,7 @@ struct Hill<'s, T: Real, V> {
 /// Place and the stress there.
 type Found<T> = ([T; 2], StressPeak<T>);
 
-impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V> {
+impl<'s, T: Real, V: Fn(Stress<T>) -> Fallible<T, T>> Hill<'s, T, V> {
     fn new(below: &'s Subsurface<'s, T>, on: Interval<T>, depths: [T; 2], value: &'s V) -> Self {
         let [from, to] = depths;
         let deepest = T::of(DEEPEST) * on.half_width().max(from);
@@ -229,7 +223,7 @@ impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V>
         [[-side, top.ln()], [(side + side) / count(COLUMNS), (to / top).ln() / count(ROWS)]]
     }
 
-    fn at(&self, place: [T; 2]) -> Result<Found<T>, ContactError<T>> {
+    fn at(&self, place: [T; 2]) -> Fallible<T, Found<T>> {
         let ([from, to], half_width) = (self.depths, self.on.half_width());
         let is_below = place[1] > self.down(from);
         let depth = if is_below { (half_width * place[1].exp()).max(from).min(to) } else { from };
@@ -237,11 +231,11 @@ impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V>
     }
 
     /// Returns the stress at a depth at x itself, of which a place keeps fewer digits.
-    fn at_depth(&self, x: T, depth: T) -> Result<Found<T>, ContactError<T>> {
+    fn at_depth(&self, x: T, depth: T) -> Fallible<T, Found<T>> {
         self.found([self.along(x), self.down(depth)], x, depth)
     }
 
-    fn found(&self, place: [T; 2], x: T, depth: T) -> Result<Found<T>, ContactError<T>> {
+    fn found(&self, place: [T; 2], x: T, depth: T) -> Fallible<T, Found<T>> {
         let solution = self.below.solution;
         solution.gap.check_watch(solution.cost(), self.on)?;
         let value = match self.below.stress(x, depth) {
@@ -261,11 +255,9 @@ impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V>
 
     /// Finds the largest stress: climbs from the highest place of each part of the first search,
     /// unless it is too low to lead to the highest maximum.
-    fn top(&self, features: &Features<T>) -> Result<StressPeak<T>, ContactError<T>> {
+    fn top(&self, features: &Features<T>) -> Fallible<T, StressPeak<T>> {
         let mut feet = self.first_look(features)?;
-        feet.sort_by(|(_, one), (_, other)| {
-            other.value.partial_cmp(&one.value).unwrap_or(Ordering::Equal)
-        });
+        feet.sort_by(|(_, one), (_, other)| by_size(&other.value, &one.value));
         let least = T::of(LEAST_PROMISING) * feet[0].1.value;
         let mut best = feet[0].1;
         for foot in feet.into_iter().take_while(|(_, foot)| foot.value >= least) {
@@ -279,7 +271,7 @@ impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V>
 
     /// Finds the highest place of the grid and of the neighbourhood of each feature, and the maxima
     /// along the surface and the interface.
-    fn first_look(&self, features: &Features<T>) -> Result<Vec<Found<T>>, ContactError<T>> {
+    fn first_look(&self, features: &Features<T>) -> Fallible<T, Vec<Found<T>>> {
         let [[left, top], [step, down]] = self.first_grid();
         let rows = || (0..ROWS).map(|row| top + down * T::count(row));
         let columns = (0..COLUMNS).map(|column| left + step * T::count(column));
@@ -316,7 +308,7 @@ impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V>
         Ok(feet)
     }
 
-    fn highest(&self, places: impl Iterator<Item = [T; 2]>) -> Result<Found<T>, ContactError<T>> {
+    fn highest(&self, places: impl Iterator<Item = [T; 2]>) -> Fallible<T, Found<T>> {
         let mut best = self.at([T::zero(); 2])?;
         for place in places {
             let found = self.at(place)?;
@@ -330,7 +322,7 @@ impl<'s, T: Real, V: Fn(Stress<T>) -> Result<T, ContactError<T>>> Hill<'s, T, V>
     /// Climbs by Rosenbrock's method, until rounding hides the maximum. Steps are tried along two
     /// axes: a step that gains is lengthened, one that fails is shortened and reversed. Once both
     /// axes have gained and then failed, the first one is turned to the direction of progress.
-    fn climb(&self, (mut place, mut best): Found<T>) -> Result<StressPeak<T>, ContactError<T>> {
+    fn climb(&self, (mut place, mut best): Found<T>) -> Fallible<T, StressPeak<T>> {
         let [top, bottom] = self.depths.map(|depth| self.down(depth));
         let (least, rounding) = (T::of(0.1) * T::epsilon().sqrt(), T::of(4.0) * T::epsilon());
         let mut axes = [[T::one(), T::zero()], [T::zero(), T::one()]];

@@ -2,8 +2,8 @@
 
 use super::super::peak::{narrow, rises};
 use super::Subsurface;
-use crate::{ContactError, EvaluationError, Extremum, Interval, Real, Side};
-use std::cmp::Ordering;
+use crate::numerics::by_size;
+use crate::{ContactError, EvaluationError, Extremum, Fallible, Interval, Real, Side};
 
 impl<T: Real> Subsurface<'_, T> {
     /// Finds the largest tension along the surface, the largest σ_x at depth 0, and its place. This
@@ -23,7 +23,7 @@ impl<T: Real> Subsurface<'_, T> {
         T::largest_tension(self)
     }
 
-    pub(crate) fn largest_tension(&self) -> Result<Extremum<T>, ContactError<T>> {
+    pub(crate) fn largest_tension(&self) -> Fallible<T, Extremum<T>> {
         let zero = T::zero();
         let is_stretched = |side, x, strength| {
             let stick = self.stick.as_ref().and_then(|stick| {
@@ -45,7 +45,7 @@ impl<T: Real> Subsurface<'_, T> {
             for x in [self.wide_grid(contact, on), self.limits(on)].concat() {
                 grid.push([x, self.tension(x, on)?]);
             }
-            grid.sort_by(|[one, _], [other, _]| one.partial_cmp(other).unwrap_or(Ordering::Equal));
+            grid.sort_by(|[one, _], [other, _]| by_size(one, other));
             for rise in rises(&grid) {
                 if rise.bound <= best.value {
                     break;
@@ -68,7 +68,7 @@ impl<T: Real> Subsurface<'_, T> {
     }
 
     /// Returns σ_x on the surface; minus infinity where the pressure is infinite.
-    fn tension(&self, x: T, on: Interval<T>) -> Result<T, ContactError<T>> {
+    fn tension(&self, x: T, on: Interval<T>) -> Fallible<T, T> {
         self.solution.gap.check_watch(self.solution.cost(), on)?;
         match self.stress(x, T::zero()) {
             Ok(stress) => Ok(stress.sigma_x),

@@ -21,7 +21,6 @@ use crate::quadrature::panels::{Several, System};
 use crate::solution::ContactState;
 use crate::{Ends, Interval, Real, Side};
 use std::borrow::Cow;
-pub(in super::super) use widths::CLOSED_WIDTH;
 
 /// Steps before the search is given up.
 const MAX_NEWTON_STEPS: usize = 60;
@@ -225,12 +224,17 @@ impl<T: Real> NewtonSeveral<T> {
         both.fold(T::zero(), along) < T::zero()
     }
 
-    /// Tells whether a limit has passed a joint in the last step. Next to a corner the equations
-    /// change within less than the step, whose size then tells nothing of the next.
+    /// Tells whether a limit has passed a joint in the last step, by more than the rounding of x.
+    /// Next to a corner the equations change within less than the step, whose size then tells
+    /// nothing of the next.
     fn passes_joint(&self, gap: &Gap<'_, T>) -> bool {
         let limits = self.on.iter().flat_map(|on| [on.left, on.right]);
         let mut both = limits.zip(&self.before[1]);
-        both.any(|(x, &last)| gap.breakpoint_after(x.min(last)).is_some_and(|z| z <= x.max(last)))
+        both.any(|(x, &last)| {
+            let rounding = T::of(8.0) * T::epsilon() * x.abs();
+            let [from, to] = [x.min(last), x.max(last)];
+            to - from > rounding && gap.breakpoint_after(from).is_some_and(|z| z <= to)
+        })
     }
 
     /// Goes to the middle of the step before, and takes the last one back.

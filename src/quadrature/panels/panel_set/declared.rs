@@ -3,7 +3,7 @@
 use super::PanelSet;
 use crate::gap::Gap;
 use crate::quadrature::panels::Panel;
-use crate::{ContactError, InputError, Real};
+use crate::{Fallible, InputError, Real};
 
 /// Allowed fall of the slope on a panel, in units of its uncertainty or of the tolerance. A fall up
 /// to the square root of the rounding unit, as a share of the largest slope, is always allowed:
@@ -17,7 +17,7 @@ impl<T: Real> PanelSet<T> {
     ///
     /// # Errors
     /// [`InputError::NotConvex`].
-    pub(super) fn check_declared(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
+    pub(super) fn check_declared(&self, gap: &Gap<'_, T>) -> Fallible<T, ()> {
         let fall = if gap.is_convex() && !self.coarse { self.falls().next() } else { None };
         fall.map_or(Ok(()), |(between, slopes)| {
             Err(InputError::NotConvex { between, slopes }.into())

@@ -4,12 +4,12 @@ use super::PanelSet;
 use crate::gap::{Cost, CurveSample, Gap, Sampler};
 use crate::numerics::chebyshev::{Table, primitive, values};
 use crate::quadrature::panels::panel::{NodeHeight, Panel, rise, within};
-use crate::{Body, ContactError, InputError, Interval, ProfileError, Real};
+use crate::{Body, ContactError, Fallible, InputError, Interval, ProfileError, Real};
 
 impl<T: Real> PanelSet<T> {
     /// Refuses a wrong sign or factor in a derivative. Looks at the two last points whose heights
     /// contradict their slopes most.
-    pub(super) fn check_slopes(&self, gap: &Gap<'_, T>) -> Result<(), ContactError<T>> {
+    pub(super) fn check_slopes(&self, gap: &Gap<'_, T>) -> Fallible<T, ()> {
         for (body, cache) in [Body::Lower, Body::Upper].into_iter().zip(&self.traces) {
             let samples = cache.curve_samples();
             if cache.direct || samples.len() < 8 {
@@ -52,7 +52,7 @@ impl<T: Real> PanelSet<T> {
         &self,
         panel: &mut Panel<T>,
         steepest: T,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         if self.traces.iter().all(|cache| cache.direct) {
             return Ok(());
         }
@@ -107,11 +107,7 @@ impl<T: Real> PanelSet<T> {
 
     /// Checks that the gap rises from the last node of a panel to the first of the next one by the
     /// same amount by heights as by slopes: both walls of a groove or a land may lie between them.
-    pub(super) fn check_between(
-        &self,
-        left: &Panel<T>,
-        right: &Panel<T>,
-    ) -> Result<(), ContactError<T>> {
+    pub(super) fn check_between(&self, left: &Panel<T>, right: &Panel<T>) -> Fallible<T, ()> {
         let (Some([_, from]), Some([mut to, _])) = (left.outermost, right.outermost) else {
             return Ok(());
         };
@@ -132,12 +128,7 @@ impl<T: Real> PanelSet<T> {
 
     /// Refuses heights at two places between which the slopes rise by another amount. The share of
     /// the distance between them is uncertain.
-    fn compare(
-        &self,
-        nodes: [&NodeHeight<T>; 2],
-        by_slopes: T,
-        share: T,
-    ) -> Result<(), ContactError<T>> {
+    fn compare(&self, nodes: [&NodeHeight<T>; 2], by_slopes: T, share: T) -> Fallible<T, ()> {
         let [from, to] = nodes;
         let mut open = from.doubt + to.doubt + share * (to.x - from.x);
         for (body, noise) in self.noise.iter().flatten().enumerate() {

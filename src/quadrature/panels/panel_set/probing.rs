@@ -9,7 +9,7 @@ use super::PanelSet;
 use crate::gap::Gap;
 use crate::numerics::chebyshev::{Table, by_size, primitive, values};
 use crate::quadrature::panels::Panel;
-use crate::{ContactError, Interval, Real};
+use crate::{ContactError, Fallible, Interval, Real};
 
 /// Default distance between probed places in a contact, in widths of the narrowest feature to be
 /// seen. Three widths from the top of a bump that moves the peak by 1 %, its slope is 1e-12 of the
@@ -63,7 +63,7 @@ impl<T: Real> PanelSet<T> {
 
     /// Samples the span of a panel anew, by panels that end at and around `x`: nodes are closest
     /// next to the ends.
-    fn cut(&mut self, gap: &Gap<'_, T>, i: usize, x: T, apart: T) -> Result<(), ContactError<T>> {
+    fn cut(&mut self, gap: &Gap<'_, T>, i: usize, x: T, apart: T) -> Fallible<T, ()> {
         let after = self.panels.split_off(i + 1);
         let Some(panel) = self.panels.pop() else { return Ok(()) };
         let [mut left, end] = panel.x;
@@ -90,7 +90,7 @@ impl<T: Real> PanelSet<T> {
         panel: &Panel<T>,
         on: Interval<T>,
         apart: T,
-    ) -> Result<Option<T>, ContactError<T>> {
+    ) -> Fallible<T, Option<T>> {
         let spacing = T::pi() * panel.half() / T::count(panel.n);
         let parts = gap.parts(spacing, apart, MAX_A_NODE);
         for part in 1..parts {
@@ -112,7 +112,7 @@ impl<T: Real> PanelSet<T> {
         panel: &Panel<T>,
         apart: T,
         [part, parts]: [usize; 2],
-    ) -> Result<Option<T>, ContactError<T>> {
+    ) -> Fallible<T, Option<T>> {
         let (share, reach, table) = (part as f64 / parts as f64, panel.half(), Table::of(N));
         // One point between two nodes is as close as the end is without any.
         let most = N as f64 - if parts > 2 { 0.0 } else { 0.25 };

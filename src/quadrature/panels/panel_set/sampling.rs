@@ -7,7 +7,7 @@ use crate::numerics::chebyshev::{SIZES, Table, by_size};
 use crate::profile::Noise;
 use crate::quadrature::panels::interpolation::{at_nodes, left_open, missed_at_ends};
 use crate::quadrature::panels::panel::{Panel, Resolution, judge};
-use crate::{Body, ContactError, Interval, Real, Side};
+use crate::{Body, Fallible, Interval, Real, Side};
 
 /// Largest offset of a point from its node, as a share of the distance to the nearest other node:
 /// normally, and for a first estimate.
@@ -54,7 +54,7 @@ impl<T: Real> PanelSet<T> {
         &mut self,
         gap: &Gap<'_, T>,
         trial: &mut Candidate<T>,
-    ) -> Result<(), ContactError<T>> {
+    ) -> Fallible<T, ()> {
         let [left, right] = trial.panel.x;
         gap.check_budget(self.spent + self.cost, 1, 0, Interval { left, right })?;
         let first = if trial.sparse && trial.may_be_halved() { MIN_NODES } else { self.initial };
@@ -133,7 +133,7 @@ impl<T: Real> PanelSet<T> {
         gap: &Gap<'_, T>,
         trial: &mut Candidate<T>,
         steepest: T,
-    ) -> Result<bool, ContactError<T>> {
+    ) -> Fallible<T, bool> {
         let panel = &mut trial.panel;
         let heights = self.beside_noise(
             gap,
@@ -151,8 +151,8 @@ impl<T: Real> PanelSet<T> {
     pub(super) fn beside_noise(
         &mut self,
         gap: &Gap<'_, T>,
-        mut check: impl FnMut(&Self) -> Result<(), ContactError<T>>,
-    ) -> Result<(), ContactError<T>> {
+        mut check: impl FnMut(&Self) -> Fallible<T, ()>,
+    ) -> Fallible<T, ()> {
         let mut heights = check(self);
         for by_rounding in [false, true] {
             if heights.is_err() && self.measure_noise(gap, by_rounding) {
@@ -222,7 +222,7 @@ impl<T: Real> PanelSet<T> {
         &mut self,
         gap: &Gap<'_, T>,
         panel: &mut Panel<T>,
-    ) -> Result<SampledBody<T>, ContactError<T>> {
+    ) -> Fallible<T, SampledBody<T>> {
         let x = panel.x;
         let table = if self.coarse { Table::coarse() } else { Table::of(N) };
         let (half, zero) = (T::of(0.5), T::zero());
@@ -276,7 +276,7 @@ impl<T: Real> PanelSet<T> {
         offsets: &[T; N],
         places: &[T; N],
         rooms: &[[T; N]; 2],
-    ) -> Result<[[T; N]; 2], ContactError<T>> {
+    ) -> Fallible<T, [[T; N]; 2]> {
         let bodies = [Body::Lower, Body::Upper].into_iter().zip(rooms);
         for ((body, room), trace) in bodies.zip(&mut self.traces) {
             sample_near(gap, body, places, room, trace, self.coarse, &mut self.cost)?;

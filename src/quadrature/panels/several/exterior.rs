@@ -54,8 +54,10 @@ impl<T: Real> Several<T> {
         if side == Side::Left {
             distances.reverse();
         }
-        // At the zero itself the quotient is a derivative: take it at a place next to the zero.
-        let aside = T::epsilon().sqrt() * width;
+        // At the zero itself the quotient is a derivative: take it at a place next to the zero, so
+        // far that the rounding of x is a hundredth of the distance.
+        let rounding = T::of(64.0) * T::epsilon() * x.abs();
+        let aside = (T::epsilon().sqrt() * width).max(rounding.min(T::of(0.25) * width));
         let is_at_zero = self.weight.zero(k).is_some_and(|(_, zero)| (x - zero).abs() < aside);
         let distance = if is_at_zero { distance + aside } else { distance };
         let without = self.without_zero(k, system, place(distance), value(distance));

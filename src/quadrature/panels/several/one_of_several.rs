@@ -8,7 +8,7 @@ use super::super::panel_set::PanelSet;
 use crate::gap::{Cost, Gap};
 use crate::numerics::chebyshev::{MAX_SIZE, SIZES, Table, by_size, power_series, size_for};
 use crate::quadrature::Moments;
-use crate::{ContactError, InputError, Interval, Real, Side};
+use crate::{ContactError, Fallible, InputError, Interval, Real, Side};
 
 /// Most halvings of a panel to resolve the weight next to a gap, which may be as narrow as rounding
 /// allows.
@@ -139,7 +139,7 @@ impl<T: Real> OneOfSeveral<T> {
 
     /// Returns the first of two places, the height of the gap there, and the largest height of
     /// either body. If heights contradict the slopes, probes for a narrow feature.
-    fn height_at(&mut self, gap: &Gap<'_, T>, places: [T; 2]) -> Result<[T; 3], ContactError<T>> {
+    fn height_at(&mut self, gap: &Gap<'_, T>, places: [T; 2]) -> Fallible<T, [T; 3]> {
         loop {
             let mut cost = Cost::default();
             let heights = self.panel_set.heights(gap, places, &mut cost);

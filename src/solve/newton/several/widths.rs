@@ -4,13 +4,11 @@ use super::super::super::fault::Fault;
 use super::{MAX_CUT, MAX_CUT_STEPS, NewtonSeveral, Width};
 use crate::Real;
 use crate::gap::Gap;
-use std::cmp::Ordering;
+use crate::numerics::by_size;
+use crate::solution::CLOSED_WIDTH;
 
 /// Least share of its width that a contact or a gap keeps in one step.
 const LEAST_WIDTH_LEFT: f64 = 0.3;
-
-/// Width below which a gap counts as closed, in units of rounding of x.
-pub(in super::super::super) const CLOSED_WIDTH: f64 = 64.0;
 
 impl<T: Real> NewtonSeveral<T> {
     /// Shortens the moves of the limits: two neighbours leave at least a share of the width between
@@ -64,10 +62,7 @@ impl<T: Real> NewtonSeveral<T> {
         order.clear();
         order.extend(0..count - 1);
         // The narrowest first: their limits may move by more than the width.
-        let by_width = |&one: &usize, &other: &usize| {
-            self.width(one).partial_cmp(&self.width(other)).unwrap_or(Ordering::Equal)
-        };
-        order.sort_unstable_by(by_width);
+        order.sort_unstable_by(|&one, &other| by_size(&self.width(one), &self.width(other)));
         for &i in &order {
             let width = self.width(i);
             let change = self.moves[i + 1] - self.moves[i];
