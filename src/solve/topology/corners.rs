@@ -192,14 +192,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok((rise > least_rise(mean)).then_some(z))
     }
 
-    /// Returns the corner inside the bodies next to a limit of a contact, if there is one before
-    /// the next contact. `mean` is `F/(κ L)`.
+    /// Returns the corner inside the bodies next to a limit of a contact, if there is one. `mean`
+    /// is `F/(κ L)`.
     fn corner_next_to(&mut self, i: usize, side: Side, mean: T) -> Fallible<T, Option<T>> {
         let (on, outward) = (self.work.workspace.newton.on[i], outward::<T>(side));
         let (x, near) = (on[side], T::of(NEAR_CORNER) * on.half_width());
-        let room = self.next_to(i, side).map_or(near, |next| (next - x).abs().min(near));
         let inside = on[side.other()];
-        let mut corners = self.breakpoints(x - outward * near, x + outward * room);
+        let mut corners = self.breakpoints(x - outward * near, x + outward * near);
         corners.retain(|&z| outward * (z - inside) > T::zero());
         let reach = T::of(SHORT_WALL) * on.half_width();
         for z in corners {
@@ -216,15 +215,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
             }
         }
         Ok(None)
-    }
-
-    /// Returns the limit of the next contact on one side of a contact, if there is one.
-    fn next_to(&self, i: usize, side: Side) -> Option<T> {
-        let on = &self.work.workspace.newton.on;
-        match side {
-            Side::Left => i.checked_sub(1).map(|next| on[next].right),
-            Side::Right => on.get(i + 1).map(|next| next.left),
-        }
     }
 
     /// Lists the breakpoints from one place to another.
@@ -389,7 +379,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let (half, on) = (T::of(0.5), self.work.workspace.newton.on[contact]);
         let (z, half_width) = (on[side], on.half_width());
         let free = half * half_width;
-        let reach = self.next_to(contact, side).map_or(free, |x| free.min(half * (x - z).abs()));
+        let all = &self.work.workspace.newton.on;
+        let next = match side {
+            Side::Left => contact.checked_sub(1).map(|next| all[next].right),
+            Side::Right => all.get(contact + 1).map(|next| next.left),
+        };
+        let reach = next.map_or(free, |x| free.min(half * (x - z).abs()));
         let ends = self.breakpoints(z, z + outward::<T>(side) * reach);
         let hollow = ends.into_iter().find(|&x| self.contact.gap.jump(x)[0] < T::zero());
         let reach = hollow.map_or(reach, |x| reach.min((x - z).abs()));
