@@ -5,7 +5,7 @@
 
 use super::repeated::Repeated;
 use super::{Gap, Sampler, Shape};
-use crate::{Body, ContactError, Cost, InputError, Real, Side};
+use crate::{Body, Cost, Fallible, InputError, Real, Side};
 use std::sync::Arc;
 
 /// Number of places at which the first cut is sought; they lie as multiples of the golden ratio do,
@@ -30,7 +30,7 @@ const STEPS: usize = 4;
 
 impl<T: Real> Gap<'_, T> {
     /// Returns the gap of bodies that repeat with this period, cut where they are furthest apart.
-    pub(crate) fn repeated(&self, period: T, cost: &mut Cost) -> Result<Self, ContactError<T>> {
+    pub(crate) fn repeated(&self, period: T, cost: &mut Cost) -> Fallible<T, Self> {
         let start = self.start_of_period(period)?;
         let repeat = |body: Body| {
             let surface = &self.bodies[body as usize];
@@ -72,7 +72,7 @@ impl<T: Real> Gap<'_, T> {
 
     /// Returns the left end of the period over which a body is described, after a check of the
     /// length of both.
-    fn start_of_period(&self, period: T) -> Result<T, ContactError<T>> {
+    fn start_of_period(&self, period: T) -> Fallible<T, T> {
         let mut start = None;
         for body in [Body::Lower, Body::Upper] {
             let surface = &self.bodies[body as usize];
@@ -93,7 +93,7 @@ impl<T: Real> Gap<'_, T> {
     /// Checks that heights and slopes of each body are the same at both ends of a period, given
     /// places all over it with the height and the slope of the gap there, and the largest of the
     /// bodies, whose rounding is no difference: bodies may be alike.
-    fn check_ends(&self, samples: &[[T; 3]], largest: [T; 2]) -> Result<(), ContactError<T>> {
+    fn check_ends(&self, samples: &[[T; 3]], largest: [T; 2]) -> Fallible<T, ()> {
         let zero = T::zero();
         let [low, high, steepest] = samples.iter().fold([zero; 3], |[low, high, steepest], at| {
             let above = at[1] - samples[0][1];
@@ -136,13 +136,14 @@ impl<T: Real> Gap<'_, T> {
     pub(crate) fn cut_at_highest(
         &self,
         [from, to]: [T; 2],
+        drawn: impl Fn(T) -> T,
         cost: &mut Cost,
-    ) -> Result<Self, ContactError<T>> {
+    ) -> Fallible<T, Self> {
         let mut sampler = Sampler::default();
         let mut highest: Option<[T; 2]> = None;
         for i in 0..=PLACES_IN_GAP {
             let x = from + (to - from) * (T::count(i) / T::count(PLACES_IN_GAP));
-            let height = sampler.height(self, self.folded(x))?;
+            let height = sampler.height(self, self.folded(x))? - drawn(x);
             if highest.is_none_or(|[_, most]| height > most) {
                 highest = Some([x, height]);
             }
@@ -179,7 +180,7 @@ impl<T: Real> Gap<'_, T> {
         kappa: T,
         compliance: impl Fn(T) -> T,
         cost: &mut Cost,
-    ) -> Result<T, ContactError<T>> {
+    ) -> Fallible<T, T> {
         let Some(period) = self.period else { return Ok(T::one() / T::zero()) };
         let (step, mut sampler) = (period / T::count(SLOPES), Sampler::default());
         let slope = |i: usize| sampler.slope(self, self.range[0] + step * T::count(i));

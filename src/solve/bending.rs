@@ -35,9 +35,9 @@ const BELOW: f64 = 1.0 / 64.0;
 /// Share of the last ρ that shows that it falls no more.
 const STALLED: f64 = 0.2;
 
-/// Share of the load of complete contact from which on a lighter load may be a start, its share of
-/// the load, and the least factor from there to the next.
-const LIGHT: f64 = 0.05;
+/// Share of the load of complete contact, which is large with corners, from which on a lighter load
+/// may be a start; its share of the load, and the least factor from there to the next.
+const LIGHT: f64 = 0.005;
 const LIGHTER: f64 = 0.8;
 const LEAST_GROWTH: f64 = 1.005;
 
@@ -279,7 +279,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         if self.spreads.is_empty() {
             self.spreads = self.begin();
         }
-        self.cut()?;
+        self.cut(false)?;
         self.is_checked = self.kernel.row.is_some() || self.spreads.len() != 1;
         for _ in 0..MAX_SOLVES {
             let solved = match self.solve() {
@@ -295,7 +295,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 // The ρ that was reached is that of other contacts.
                 self.before = T::one() / T::zero();
             }
-            let is_least = self.is_least(residual, solved.found.error);
+            let is_least = self.is_least(residual, &solved);
             // Derivatives converge like the values, but may have begun further off; those that are
             // no numbers stay so.
             let of_rates = residuals[1..].iter().copied().fold(T::zero(), T::max);
@@ -327,17 +327,27 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             // The whole correction.
             self.from = std::mem::replace(&mut self.spreads, spreads.clone());
             (self.target, self.part, self.before) = (spreads, T::one(), residual);
-            self.cut()?;
+            self.cut(false)?;
         }
         Err(self.not_found())
     }
 
     /// Tells whether no other step is worth its cost: the residual is that of rounding, far below
     /// the error of the limits, or below it and falls no more, as limits next to weak corners move
-    /// by their error from solve to solve. Next to a kink r is known to fewer digits.
-    fn is_least(&self, residual: T, error: Option<T>) -> bool {
-        let error = error.unwrap_or(T::zero());
-        let known = T::epsilon().powf(T::of(0.75)).max(error);
+    /// by their error from solve to solve. Next to a kink r is known to fewer digits, and a limit d
+    /// beyond a corner gives a pressure there that its rounding changes by a share ε x/d.
+    fn is_least(&self, residual: T, Solve { found, gap, .. }: &Solve<'b, T>) -> bool {
+        let error = found.error.unwrap_or(T::zero());
+        let share = |x: T, corner: Option<T>| {
+            let away = corner.map_or(T::zero(), |corner| (x - corner).abs());
+            if away > T::zero() { T::epsilon() * x.abs() / away } else { T::zero() }
+        };
+        let contacts = self.work.integrator.contacts(&found.interval).iter();
+        let shares = contacts.flat_map(|&Interval { left, right }| {
+            let corners = [gap.breakpoint_after(left), gap.breakpoint_before(right)];
+            [share(left, corners[0]), share(right, corners[1])]
+        });
+        let known = shares.fold(T::epsilon().powf(T::of(0.75)).max(error), T::max);
         residual <= (T::of(BELOW) * error).max(rounding())
             || residual <= known && residual > T::of(STALLED) * self.before
     }
@@ -356,6 +366,13 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             }
         }
         self.is_checked = true;
+        let [cut, _] = self.gap.range();
+        if self.fills(&error) && !self.spreads.is_empty() {
+            self.cut(true)?;
+            if self.gap.range()[0] != cut {
+                return Ok(());
+            }
+        }
         if self.has_converged && self.may_be_one {
             // One interval meets the equation, but is no contact.
             (self.has_converged, self.may_be_one) = (false, false);

@@ -743,7 +743,8 @@ class Contact(Unchanging):
         load : float
             Load per unit length F: force/length.
         half_width : float
-            Half-width L, in place of a load: a length.
+            Half-width L, in place of a load: a length; of several contacts, from the first limit to
+            the last. With a `period` several loads may have that of several contacts.
         peak_pressure : float
             Peak pressure, in place of a load: a pressure.
         approach : float

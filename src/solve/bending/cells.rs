@@ -50,7 +50,7 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         // Waves may be shorter than a cell.
         self.is_checked = true;
         self.restart(spreads);
-        self.cut()?;
+        self.cut(false)?;
         Ok(true)
     }
 

@@ -5,11 +5,12 @@
 //! first contacts are about as many as the last ones.
 
 use super::{Bending, Spread, load};
-use crate::kernel::punch;
+use crate::kernel::{loads, punch};
+use crate::numerics::by_size;
 use crate::{ContactError, Fallible, Interval, Real, SolveError};
-use std::cmp::Ordering;
 
-/// Least distance of the cut from the contacts, by the widest gap.
+/// Least distance of the cut from the contacts, by the widest gap; and least width of a gap in
+/// which a contact may be born, by the period.
 const SHORT: f64 = 0.2;
 
 /// Least width of the widest gap that is solved, by the half-width of the widest contact.
@@ -32,21 +33,28 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         spreads.iter().map(|spread| spread.times(load)).collect()
     }
 
-    /// Cuts the period in the widest gap, where the bodies are furthest apart, unless the present
-    /// cut is about as far from the contacts.
-    pub(super) fn cut(&mut self) -> Fallible<T, ()> {
+    /// Cuts the period in the widest gap, where the bodies under load are furthest apart, unless
+    /// the present cut is about as far from the contacts, and none is born there.
+    pub(super) fn cut(&mut self, is_born: bool) -> Fallible<T, ()> {
         let Some(period) = self.kernel.row.as_ref().map(|row| row.period) else { return Ok(()) };
         let contacts = merged(&self.spreads);
         let (Some(first), Some(last)) = (contacts.first(), contacts.last()) else { return Ok(()) };
         let [left, right] = self.gap.range();
         let at_cut = (first.left - left).min(right - last.right);
         let [from, to] = widest_gap(&contacts, period);
-        if at_cut >= T::of(SHORT) * (to - from) {
+        // In a narrow gap nothing is born: the period is about to be filled.
+        let is_wide = to - from > T::of(SHORT) * period;
+        if at_cut >= T::of(SHORT) * (to - from) && !(is_born && is_wide) {
             return Ok(());
         }
-        // A contact may be born in the middle of a gap.
-        let quarter = T::of(0.25) * (to - from);
-        self.gap = self.gap.cut_at_highest([from + quarter, to - quarter], self.work.cost)?;
+        let (quarter, kappa) = (T::of(0.25) * (to - from), self.contact.kappa);
+        let loads = loads(self.kernel.distance(), &self.spreads);
+        let drawn = |x: T| {
+            let regular = self.kernel.sums([1], x, &loads)[0];
+            loads.iter().fold(regular, |sum, &[s, load]| sum + load * (x - s).abs().ln()) / kappa
+        };
+        self.gap =
+            self.gap.cut_at_highest([from + quarter, to - quarter], drawn, self.work.cost)?;
         let gap = &self.gap;
         for spreads in [&mut self.spreads, &mut self.from, &mut self.target] {
             for Spread { on, .. } in spreads {
@@ -108,7 +116,7 @@ fn widest_gap<T: Real>(contacts: &[Interval<T>], period: T) -> [T; 2] {
 /// Lists the intervals of pressures from left to right; those before and after a step overlap.
 pub(super) fn merged<T: Real>(spreads: &[Spread<T>]) -> Vec<Interval<T>> {
     let mut ends: Vec<Interval<T>> = spreads.iter().map(|spread| spread.on).collect();
-    ends.sort_by(|one, other| one.left.partial_cmp(&other.left).unwrap_or(Ordering::Equal));
+    ends.sort_by(|one, other| by_size(&one.left, &other.left));
     ends.dedup_by(|next, last| {
         let is_one = next.left <= last.right;
         last.right = if is_one { last.right.max(next.right) } else { last.right };

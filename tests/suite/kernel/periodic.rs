@@ -4,6 +4,7 @@ use super::oracle::residual;
 use super::scenes::random_layer;
 use super::{RIGID, assert_limits, coated, half_plane, layer};
 use crate::common::{Profile, graph};
+use crate::corners::polygon;
 use crate::random_scenes::Dice;
 use crate::several_bench::{PERIODIC, Periodic, rough};
 use linecontact::profile::Piecewise;
@@ -469,5 +470,31 @@ fn limits_at_weak_corners_leave_as_much_of_the_bend_open() {
         assert!((borne / load - 1.0).abs() < 1e-7, "{borne} of {load}");
         assert!(solution.limits_error().unwrap() < 1e-7);
         solution.certify().unwrap();
+    }
+}
+
+/// A land and a groove in each period, whose bottom touches where the period is described to begin:
+/// it is cut in one of the gaps. Half of the gaps' ends by boundary elements, to a cell of 2⁻¹².
+#[test]
+fn the_bottom_of_a_groove_may_touch_where_the_period_was_cut() {
+    let depth = 0.05;
+    let scenes =
+        [(0.5, 0.05, [0.042, 0.257]), (5.0, 0.06, [0.052, 0.254]), (20.0, 0.1, [0.145, 0.251])];
+    for (slope, load, gap) in scenes {
+        let half = 0.5 * depth / slope;
+        let [fall, rise] = [[0.25 - half, 0.25 + half], [0.75 - half, 0.75 + half]];
+        let points = [[0.0, depth], [fall[0], depth], [fall[1], 0.0], [rise[0], 0.0]];
+        let body = polygon(&[&points[..], &[[rise[1], depth], [1.0, depth]]].concat());
+        let contact = Contact::new(&Flat, &*body).unwrap().period(1.0);
+        let solution = contact.solve(Control::Load(load));
+        let solution = solution.unwrap_or_else(|error| panic!("{slope}, {load}: {error}"));
+        let ends = solution.intervals().iter().flat_map(|on| [on.left, on.right]);
+        let mut ends: Vec<f64> = ends.map(|x| x.rem_euclid(1.0)).collect();
+        ends.sort_by(f64::total_cmp);
+        assert_eq!(ends.len(), 4, "{slope}, {load}: {solution}");
+        for (end, exact) in ends.iter().zip([gap[0], gap[1], 1.0 - gap[1], 1.0 - gap[0]]) {
+            assert!((end - exact).abs() < 2e-3, "{slope}, {load}: {ends:?}");
+        }
+        assert!((ends[0] + ends[3] - 1.0).abs() < 1e-7, "{slope}, {load}: {ends:?}");
     }
 }

@@ -3,6 +3,7 @@
 use super::oracle::{compliance, residual};
 use super::{coated, half_plane, layer};
 use crate::common::{Profile, graph};
+use crate::corners::polygon;
 use crate::random_scenes::Dice;
 use linecontact::profile::Ellipse;
 use linecontact::{Base, ContactError, Control, Foundation, InputError, Layer, Material};
@@ -77,6 +78,42 @@ fn random_coated_bodies_meet_the_equation() {
         assert!(solution.certify().is_ok(), "{seed}: {:?}", solution.certify());
     }
     assert!(1000 * refused <= count, "{refused} refused");
+}
+
+/// Flat lands with steep walls on a layer: next to their corners the rounding of x moves the
+/// pressure, so that Eq. (1) is not met to rounding. The lands are symmetric, and so are the loads.
+#[test]
+fn lands_press_a_layer() {
+    let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(40);
+    for seed in 0..count {
+        let random = &mut Dice::new(seed);
+        let lands = 1 + (3.0 * random.uniform()) as i32;
+        let wall = random.power_of_ten(-6.0, -1.7);
+        let ratio = [0.3, 0.45, 0.5][(3.0 * random.uniform()) as usize];
+        let base = if random.uniform() < 0.5 { Base::Bonded } else { Base::Frictionless };
+        let layer = layer(1.0, ratio, random.power_of_ten(-1.0, 0.3), base);
+        let step = 1.8 / f64::from(2 * lands - 1);
+        let (mut x, mut points) = (-0.9, vec![[-1.0, 0.2]]);
+        for land in 1..=lands {
+            points.extend([[x, 0.0], [x + step, 0.0]]);
+            if land < lands {
+                points.extend([[x + step + wall, 0.1], [x + 2.0 * step - wall, 0.1]]);
+            }
+            x += 2.0 * step;
+        }
+        points.push([1.0, 0.2]);
+        let (body, load) = (polygon(&points), random.power_of_ten(-4.0, -2.0));
+        let contact = coated(&body, layer, Material::Rigid);
+        let solution = contact.solve(Control::Load(load));
+        let solution = solution.unwrap_or_else(|error| panic!("{seed}: {error}"));
+        assert!(solution.limits_error() < Some(1e-6), "{seed}: {solution}");
+        let loads: Vec<f64> = solution.contacts().unwrap().iter().map(|one| one.load).collect();
+        assert_eq!(loads.len(), lands as usize, "{seed}: {solution}");
+        for (one, other) in loads.iter().zip(loads.iter().rev()) {
+            assert!((one - other).abs() < 1e-6 * load, "{seed}: {loads:?}");
+        }
+        assert!((loads.iter().sum::<f64>() / load - 1.0).abs() < 1e-6, "{seed}: {loads:?}");
+    }
 }
 
 /// A circle, a parabola or a rough body on a layer, and a load of about this half-width by the
