@@ -220,6 +220,27 @@ fn exact_points_are_smoothed_to_their_curve() {
     }
 }
 
+/// Regular waves, as of chatter, are longer than the distance of the points: neighbours share them,
+/// and they are no noise.
+#[test]
+fn waves_are_not_smoothed_away() {
+    let (mut random, height) = (Shares(5), 1e-3);
+    for points_a_wave in [16.0, 25.0, 50.0, 80.0, 105.0, 160.0] {
+        for (count, noise) in [(1001, 0.0), (3001, 0.0), (1001, 2e-4), (3001, 2e-4)] {
+            let waves = PI * count as f64 / points_a_wave;
+            let exact = |x: f64| x * x / 10.0 + height * (waves * x).sin();
+            let points = even(count, |x| exact(x) + noise * random.normal());
+            let body = Spline::fitted(&points, Fit { smooth: true, ..Fit::default() }).unwrap();
+            let scene = format!("{points_a_wave} {count} {noise}");
+            let off = body.noise() - noise;
+            assert!(off.abs() <= 0.1 * noise + 1e-4 * height, "{scene}: {off:e}");
+            let squares = points.iter().map(|&[x, _]| (body.at(x).y - exact(x)).powi(2));
+            let off = (squares.sum::<f64>() / count as f64).sqrt();
+            assert!(off <= 0.6 * noise + 1e-4 * height, "{scene}: {off:e}");
+        }
+    }
+}
+
 /// The bound of the slope is the noise over the distance within which the smoothing averages: many
 /// points are as good as few with less noise.
 #[test]

@@ -16,7 +16,8 @@
 //! ```
 //!
 //! for N points and K spans between knots. The knots are halved until the smoothing reaches over
-//! several spans; then they do not matter any more.
+//! several spans and neighbouring points do not share what it leaves; then they do not matter any
+//! more.
 //!
 //! The least squares are solved by rotations, from left to right, in time and memory proportional
 //! to the number of points: the normal equations have the square of the condition number.
@@ -31,6 +32,9 @@ const RESOLVED: f64 = 1.5;
 
 /// Least reach of the smoothing, in spans: the curve follows the points.
 const LEAST_SMOOTHING: f64 = 0.05;
+
+/// Correlation of neighbouring points, by that of independent noise, that makes waves of them.
+const SHARED: f64 = 3.0;
 
 /// Ratio of successive reaches tried, for the most likely and for the least of the likely ones.
 const REACH_RATIO: f64 = 1.5;
@@ -155,6 +159,24 @@ impl<T: Real> Fitting<T> {
             - T::count(self.spans) * alpha.ln()
     }
 
+    /// Tells whether neighbouring points share what this smoothing leaves of them, as waves shorter
+    /// than the spans, which are no noise.
+    fn leaves_waves(&self, points: &[[T; 2]], reach: T) -> bool {
+        let coefficients = self.penalised(self.alpha(reach)).solve();
+        let left = points.iter().map(|&[share, y]| {
+            let (start, t) = split(share, self.spans);
+            y - values(t)
+                .iter()
+                .zip(&coefficients[start..])
+                .fold(T::zero(), |sum, (&b, &c)| sum + b * c)
+        });
+        let left: Vec<T> = left.collect();
+        let shared = left.windows(2).fold(T::zero(), |sum, pair| sum + pair[0] * pair[1]);
+        let all = left.iter().fold(T::zero(), |sum, &left| sum + left * left);
+        // Of independent noise this is as far from zero in one of a thousand profiles.
+        shared > T::of(SHARED) * all / T::count(points.len()).sqrt()
+    }
+
     /// Finds the least of the likely reaches and the most likely, on a grid and then by golden
     /// section in its logarithm.
     fn reaches(&self) -> [T; 2] {
@@ -223,7 +245,9 @@ impl<T: Real> Smooth<T> {
         rest.iter_mut().for_each(|point| point[1] /= size);
         let mut fitting = Fitting::new(&rest, FIRST_SPANS.min(points.len() - 1));
         let mut reaches = fitting.reaches();
-        while reaches[0] < T::of(RESOLVED) && fitting.spans < points.len() {
+        while fitting.spans < points.len()
+            && (reaches[0] < T::of(RESOLVED) || fitting.leaves_waves(&rest, reaches[1]))
+        {
             fitting = Fitting::new(&rest, 2 * fitting.spans);
             reaches = fitting.reaches();
         }
