@@ -201,14 +201,14 @@ def test_the_traction_is_that_of_partial_slip(name: str, tmp_path: Path) -> None
             assert low <= np.min(traction) and np.max(traction) <= high
         for key, of in (("tension", slip.max_tension), ("shear", slip.max_shear)):
             try:
-                assert frame[key] == of("lower")._asdict()
+                assert frame[key] == of(body="lower")._asdict()
             except lc.errors.SingularError as infinite:
                 assert frame[key]["value"] is None and frame[key]["x"] == infinite.x
         at, depth, shear = shear_of(frame["field"])
-        exact = slip.stress("lower", at, depth[1:, None]).max_shear()
+        exact = slip.stress(at, depth[1:, None], body="lower").max_shear()
         np.testing.assert_allclose(shear[1:], exact, rtol=0.0, atol=0.51 * frame["field"]["unit"])
         if scene in ("hertz", "two contacts"):
-            surface = slip.stress("lower", at, 0.0).max_shear()
+            surface = slip.stress(at, 0.0, body="lower").max_shear()
             np.testing.assert_allclose(shear[0], surface, atol=1e-3 * np.max(surface) + frame["field"]["unit"])
 
 

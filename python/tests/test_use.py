@@ -549,7 +549,7 @@ def test_von_mises_takes_the_ratio_of_the_material() -> None:
     with pytest.raises(ValueError, match="give poisson_ratio"):
         lc.solve(FLAT, BODY, kappa=1.0, half_width=0.1).max_von_mises()
     slip = lc.Contact(FLAT, BODY, materials=(STEEL, STEEL)).partial_slip(friction=0.4, force=10.0, load=100.0)
-    assert slip.max_von_mises("lower") == slip.max_von_mises("lower", 0.3)
+    assert slip.max_von_mises(body="lower") == slip.max_von_mises(0.3, body="lower")
 
 
 def test_complex_numbers_are_refused() -> None:
@@ -743,24 +743,24 @@ def test_stresses_of_partial_slip() -> None:
     pairs: list[tuple[Literal["lower", "upper"], Literal["lower", "upper"], float]]
     pairs = [("lower", "upper", -1.0), ("upper", "lower", 1.0)]
     for body, other, sign in pairs:
-        x, tension = slip.max_tension(body)
+        x, tension = slip.max_tension(body=body)
         assert math.isclose(tension, 0.8 * peak * 0.75**0.5, rel_tol=1e-12)  # 2 μ p₀ sqrt(Q/(μF))
         assert math.isclose(x, sign * a, rel_tol=1e-12)
-        assert slip.stress(body, x, 0.0).sigma_x == tension
+        assert slip.stress(x, 0.0, body=body).sigma_x == tension
         for one, again in (
-            (slip.max_shear(body), back.max_shear(other)),
-            (slip.max_von_mises(body, 0.3), back.max_von_mises(other, 0.3)),
+            (slip.max_shear(body=body), back.max_shear(body=other)),
+            (slip.max_von_mises(0.3, body=body), back.max_von_mises(0.3, body=other)),
         ):
             assert one == again
-        x, depth, value = slip.max_shear(body)
-        assert math.isclose(slip.stress(body, x, depth).max_shear(), value, rel_tol=1e-7)
-        x, depth, value = slip.max_von_mises(body, 0.3)
-        assert math.isclose(slip.stress(body, x, depth).von_mises(0.3), value, rel_tol=1e-7)
-    for wrong in (lambda: slip.max_shear("middle"), lambda: slip.max_tension("")):  # type: ignore[arg-type]
+        x, depth, value = slip.max_shear(body=body)
+        assert math.isclose(slip.stress(x, depth, body=body).max_shear(), value, rel_tol=1e-7)
+        x, depth, value = slip.max_von_mises(0.3, body=body)
+        assert math.isclose(slip.stress(x, depth, body=body).von_mises(0.3), value, rel_tol=1e-7)
+    for wrong in (lambda: slip.max_shear(body="middle"), lambda: slip.max_tension(body="")):  # type: ignore[arg-type]
         with pytest.raises(ValueError, match="'lower' or 'upper'"):
             wrong()
     with pytest.raises(lc.errors.InvalidPoissonRatioError):
-        slip.max_von_mises("lower", 0.6)
+        slip.max_von_mises(0.6, body="lower")
     sliding = slip.normal.max_tension(friction=0.4)
     assert math.isclose(sliding.value, 0.8 * peak, rel_tol=1e-12) and sliding.x == -slip.normal.b
     assert slip.normal.max_tension().value == 0.0

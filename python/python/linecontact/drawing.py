@@ -346,7 +346,7 @@ def plot(solution: Solution, units: Sequence[str], given: Figure | None, slip: P
         # In a layer on a rigid base down to the base.
         depth = np.geomspace(min(0.02 * narrowest, 0.1 * deepest), min(_DEPTH * on.half_width, deepest), 48)
         grid = across[None, :], np.minimum(depth, deepest)[:, None]
-        stress = solution.stress(*grid, body=body) if slip is None else slip.stress("lower", *grid)
+        stress = solution.stress(*grid, body=body) if slip is None else slip.stress(*grid, body="lower")
         found.append((depth, stress.max_shear()))
     # Below several layers no stress is known.
     drawn_each = _draw_shears(shears, across, found, solution) if found else []

@@ -235,7 +235,7 @@ def _peak(solution: Solution) -> dict[str, Any]:
 def _tension(slip: PartialSlip) -> dict[str, Any]:
     """Returns the largest tension along the lower surface and its x; None if it is infinite."""
     try:
-        return slip.max_tension("lower")._asdict()
+        return slip.max_tension(body="lower")._asdict()
     except SingularError as infinite:
         return {"x": infinite.x, "value": None}
 
@@ -370,9 +370,9 @@ def _field(
     if slip is None:
         shear[drawn] = solution.stress(x, rows[drawn, None], body=body).max_shear()
     else:
-        shear = slip.stress("lower", x, rows[:, None]).max_shear()
+        shear = slip.stress(x, rows[:, None], body="lower").max_shear()
     try:
-        found = solution.max_shear(body=body) if slip is None else slip.max_shear("lower")
+        found = solution.max_shear(body=body) if slip is None else slip.max_shear(body="lower")
         largest: dict[str, Any] = found._asdict()
         top = largest["value"]
     except SingularError as infinite:

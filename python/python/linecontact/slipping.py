@@ -139,7 +139,7 @@ class PartialSlip:
 
     # Stress below each body, without a tension that stretches it.
 
-    def stress(self, body: Side, x: float | Numbers, depth: float | Numbers) -> Stress:
+    def stress(self, x: float | Numbers, depth: float | Numbers, *, body: Side) -> Stress:
         """Returns the stress below the surface of one body, from pressure and traction.
 
         At depth 0 it is the stress of the surface. A tension that stretches the body has to be
@@ -147,11 +147,11 @@ class PartialSlip:
         """
         return _stress(lambda x, depth: self._found.stress(as_side(body, True), x, depth), x, depth)
 
-    def max_shear(self, body: Side) -> StressPeak:
+    def max_shear(self, *, body: Side) -> StressPeak:
         """Returns the largest shear stress in the plane in one body, and its place."""
         return StressPeak(*self._found.max_shear(as_side(body, True)))
 
-    def max_von_mises(self, body: Side, poisson_ratio: float | None = None) -> StressPeak:
+    def max_von_mises(self, poisson_ratio: float | None = None, *, body: Side) -> StressPeak:
         """Returns the largest von Mises equivalent stress in one body, and its place.
 
         Poisson's ratio is by default that of its material.
@@ -162,7 +162,7 @@ class PartialSlip:
             poisson_ratio = ratio_below(self._contact, body, None)
         return StressPeak(*self._found.max_von_mises(as_side(body, True), poisson_ratio))
 
-    def max_tension(self, body: Side) -> Extremum:
+    def max_tension(self, *, body: Side) -> Extremum:
         """Returns the largest tension along the surface of one body, and its x.
 
         Cracks of fretting start there: mostly at the edge that the traction pulls away from. A
@@ -173,7 +173,7 @@ class PartialSlip:
         >>> import linecontact as lc
         >>> contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), contact_modulus=1.0)
         >>> slip = contact.partial_slip(friction=0.4, force=0.03, load=0.1)
-        >>> x, tension = slip.max_tension("lower")
+        >>> x, tension = slip.max_tension(body="lower")
         >>> x == -slip.normal.b
         True
         >>> round(tension / slip.normal.peak().pressure, 12)  # 2 μ sqrt(Q/(μF))
