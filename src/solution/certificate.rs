@@ -276,9 +276,9 @@ fn least_pressure<T: Real>(
             left = right;
         }
         found.sort();
-        let mut closed: Vec<Interval<T>> = Vec::new();
+        let mut closed: Vec<(Interval<T>, T)> = Vec::new();
         for Extremum { x, value: pressure } in found.found {
-            if closed.iter().any(|span| span.contains(x)) {
+            if closed.iter().any(|(span, _)| span.contains(x)) {
                 continue;
             }
             let least = least_width(gap, state.interval, x);
@@ -288,13 +288,13 @@ fn least_pressure<T: Real>(
                 let tension = || state.tension(x, pressure).into();
                 return Err(if is_known { tension() } else { undecided(x, cost) });
             }
-            closed.push(span);
+            closed.push((span, x));
         }
         let ratio = found.given_up.map_or(found.ratio.ok_or(on.centre()), Err);
         let ratio = ratio.map_err(|x| undecided(x, cost))?;
         // The ratio has no value in a gap that is too narrow to be told.
-        let zero_at = |span: &Interval<T>| Extremum { x: span.centre(), value: T::zero() };
-        let Extremum { x, value } = closed.first().map_or(ratio, zero_at);
+        let touching = closed.first().map(|&(_, x)| Extremum { x, value: T::zero() });
+        let Extremum { x, value } = touching.unwrap_or(ratio);
         least = nearer(least, Some(Extremum { x, value: value / mean }));
     }
     least.ok_or_else(|| undecided(state.interval.left, cost))
