@@ -15,7 +15,7 @@ use crate::Real;
 use std::cmp::Ordering;
 
 /// Returns the order of two numbers by size, NaN first: a total order, which sorting needs.
-pub(crate) fn by_size<T: Real>(one: &T, other: &T) -> Ordering {
+pub(crate) fn ascending<T: Real>(one: &T, other: &T) -> Ordering {
     let is_number = |value: &T| value.partial_cmp(value).is_some();
     one.partial_cmp(other).unwrap_or_else(|| is_number(one).cmp(&is_number(other)))
 }

@@ -30,7 +30,7 @@ mod series;
 mod tests;
 
 use super::{Cost, Gap};
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::{Body as Which, ContactError, Fallible, InputError, Interval, ProfileError, Real};
 use body::Body;
 use convex::{Stretch, convex_stretches};
@@ -339,7 +339,7 @@ impl<T: Real> Survey<T> {
         std::mem::swap(&mut self.nodes, &mut self.before);
         let (nodes, before) = (&mut self.nodes, &self.before);
         for body in &mut self.bodies {
-            body.fresh.sort_by(|one, other| by_size(&one[0], &other[0]));
+            body.fresh.sort_by(|one, other| ascending(&one[0], &other[0]));
         }
         nodes.clear();
         nodes.reserve(2 + self.bodies.iter().map(|body| body.points.capacity()).sum::<usize>());

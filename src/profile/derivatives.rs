@@ -13,7 +13,7 @@
 
 use super::{ParametricProfile, Piece, ProfileError, finite_at, interval};
 use crate::Real;
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::numerics::gauss_legendre::GaussLegendre;
 
 /// Number of ranges into which the domain is divided at first.
@@ -235,7 +235,7 @@ impl<T: Real> Range<T> {
 /// Returns the part whose share of error is the median.
 fn typical<T: Real>(parts: &[Range<T>], i: usize) -> Range<T> {
     let mut parts = parts.to_vec();
-    parts.sort_by(|a, b| by_size(&a.share(i), &b.share(i)));
+    parts.sort_by(|a, b| ascending(&a.share(i), &b.share(i)));
     parts[parts.len() / 2]
 }
 

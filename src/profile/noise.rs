@@ -2,7 +2,7 @@
 
 use super::{CurvePoint, Piece};
 use crate::Real;
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 
 /// Lengths over which the noise is measured, as shares of a piece: powers of the rounding unit.
 /// Over the shortest all values may be rounded alike, as those of a cosine at 0.
@@ -91,7 +91,7 @@ impl<T: Real> Noise<T> {
                 }
                 *size = T::of(scale) * (sum / weights).abs();
             }
-            sizes.sort_by(by_size);
+            sizes.sort_by(ascending);
             let median = sizes[order + (POINTS - order) / 2];
             if median.is_finite() { median } else { zero }
         };

@@ -1,7 +1,7 @@
 //! Several contacts made of one, by a polynomial.
 
 use super::{ClosedForm, ReferenceError, check, positive};
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::{Edge, Interval, Real};
 
 /// N contacts in a row, made of one: the body `H(v(x))/N`, where H is the body of another form with
@@ -76,7 +76,7 @@ impl<T: Real, F: ClosedForm<T>> PolynomialMap<T, F> {
             let places = map.places(v);
             map.breakpoints.extend(places.into_iter().map(|x| [x, v]));
         }
-        map.breakpoints.sort_by(|a, b| by_size(&a[0], &b[0]));
+        map.breakpoints.sort_by(|a, b| ascending(&a[0], &b[0]));
         Ok(map)
     }
 

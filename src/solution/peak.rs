@@ -2,7 +2,7 @@
 
 use super::{ContactState, LoadRates, Pressure, Solution, Solved};
 use crate::gap::{Cost, Gap};
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::quadrature::{Engine, Estimate, LoadCase};
 use crate::{ContactError, EvaluationError, Fallible, Interval, Real};
 
@@ -239,7 +239,7 @@ pub(super) fn rises<T: Real>(grid: &[[T; 2]]) -> Vec<Rise<T>> {
         is_top.then_some(Rise { bracket: beside.map(|[x, _]| x), highest, bound })
     };
     let mut rises: Vec<_> = (0..grid.len()).filter_map(rise).collect();
-    rises.sort_by(|one, other| by_size(&other.bound, &one.bound));
+    rises.sort_by(|one, other| ascending(&other.bound, &one.bound));
     rises
 }
 

@@ -23,7 +23,7 @@ mod marks;
 mod potential;
 
 use crate::kernel::Kernel;
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::numerics::dot;
 use crate::{ContactError, Ends, Fallible, Interval, Real};
 use forces::{line, sum};
@@ -250,7 +250,7 @@ impl<'s, T: Real> ActiveSet<'s, T> {
 
     fn lowest(&self) -> Option<usize> {
         let by_height =
-            |&i: &usize, &j: &usize| by_size(&self.cells[i].height, &self.cells[j].height);
+            |&i: &usize, &j: &usize| ascending(&self.cells[i].height, &self.cells[j].height);
         (0..self.cells.len()).min_by(by_height)
     }
 
@@ -295,7 +295,7 @@ impl<'s, T: Real> ActiveSet<'s, T> {
             self.cells[i].height + share * (self.cells[j].height - self.cells[i].height)
         };
         let pairs = (0..middle).flat_map(|i| (middle..arms.len()).map(move |j| [i, j]));
-        let by_line = |one: &_, other: &_| by_size(&line(one), &line(other));
+        let by_line = |one: &_, other: &_| ascending(&line(one), &line(other));
         let lowest = self.lowest().unwrap_or(0);
         pairs.min_by(by_line).unwrap_or([lowest; 2])
     }

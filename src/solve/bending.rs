@@ -338,14 +338,15 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
     /// beyond a corner gives a pressure there that its rounding changes by a share ε x/d.
     fn is_least(&self, residual: T, Solve { found, gap, .. }: &Solve<'b, T>) -> bool {
         let error = found.error.unwrap_or(T::zero());
-        let share = |x: T, corner: Option<T>| {
-            let away = corner.map_or(T::zero(), |corner| (x - corner).abs());
-            if away > T::zero() { T::epsilon() * x.abs() / away } else { T::zero() }
+        // A limit nearer to a corner than its rounding matters is held there.
+        let share = |x: T, joint: Option<T>| {
+            let corner = joint.filter(|&z| z != x && gap.jump(z)[0] > T::zero());
+            corner.map_or(T::zero(), |z| T::epsilon() * (x / (x - z)).abs())
         };
         let contacts = self.work.integrator.contacts(&found.interval).iter();
         let shares = contacts.flat_map(|&Interval { left, right }| {
-            let corners = [gap.breakpoint_after(left), gap.breakpoint_before(right)];
-            [share(left, corners[0]), share(right, corners[1])]
+            let joints = [gap.breakpoint_after(left), gap.breakpoint_before(right)];
+            [share(left, joints[0]), share(right, joints[1])]
         });
         let known = shares.fold(T::epsilon().powf(T::of(0.75)).max(error), T::max);
         residual <= (T::of(BELOW) * error).max(rounding())

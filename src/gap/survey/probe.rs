@@ -10,7 +10,7 @@ use super::lows::segment;
 use super::panel::{Missed, Panel};
 use super::{Cost, Node, Survey};
 use crate::gap::{Gap, Surface};
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::real::same;
 use crate::{ContactError, Fallible, Interval, Real};
 
@@ -207,7 +207,7 @@ impl<T: Real> Survey<T> {
                     on.iter_mut().filter(is_long).for_each(Panel::void);
                 }
             }
-            changed.sort_by(|one, other| by_size(&one[0], &other[0]));
+            changed.sort_by(|one, other| ascending(&one[0], &other[0]));
             changed.dedup_by(|next, on| {
                 let meets = next[0] <= on[1];
                 on[1] = if meets { on[1].max(next[1]) } else { on[1] };

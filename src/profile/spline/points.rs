@@ -2,7 +2,7 @@
 
 use super::Fit;
 use crate::Real;
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::rounded::{apart, six, span};
 use std::cmp::Ordering;
 use thiserror::Error;
@@ -226,7 +226,7 @@ fn culprit<T: Real>(points: &[[T; 2]], i: usize) -> usize {
         (0..rest.len()).fold(T::zero(), |sum, j| sum + deviation(&rest, j).abs())
     };
     let candidates = i.saturating_sub(2)..(i + 3).min(points.len());
-    candidates.min_by(|a, b| by_size(&rough(a), &rough(b))).unwrap_or(i)
+    candidates.min_by(|a, b| ascending(&rough(a), &rough(b))).unwrap_or(i)
 }
 
 /// Returns the distance of a point from the cubic through its neighbours, scaled to the error of a
@@ -255,5 +255,5 @@ fn foretold<T: Real>(points: &[[T; 2]], i: usize) -> (T, T) {
 fn median<T: Real>(values: &[T], sorted: &mut Vec<T>) -> T {
     sorted.clear();
     sorted.extend_from_slice(values);
-    *sorted.select_nth_unstable_by((values.len() - 1) / 2, by_size).1
+    *sorted.select_nth_unstable_by((values.len() - 1) / 2, ascending).1
 }

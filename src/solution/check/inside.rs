@@ -9,7 +9,7 @@
 
 use super::series_bounds::{bounds, least, truncation_error};
 use super::{Closeness, Extremum, nearer};
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::numerics::chebyshev::Table;
 use crate::{ContactError, Ends, Fallible, Interval, Real, Side};
 
@@ -72,7 +72,7 @@ impl<T: Real> Tensions<T> {
 
     /// Sorts the places by their pressures, the deepest tension first.
     pub fn sort(&mut self) {
-        self.found.sort_by(|one, other| by_size(&one.value, &other.value));
+        self.found.sort_by(|one, other| ascending(&one.value, &other.value));
     }
 
     /// Records pressures that are tensions.
@@ -169,7 +169,9 @@ impl<T: Real> Inside<'_, T> {
             return Sign::OfLeast(least(series, enough));
         }
         let share = T::of(self.closeness.share).max(rounding);
-        let rough = (share > T::zero()).then(|| least(series, T::of(0.5) * left_out));
+        // No value of the series is above N times its largest coefficient.
+        let may_be = left_out <= share * T::count(N) * size;
+        let rough = may_be.then(|| least(series, T::of(0.5) * left_out));
         let is_known = |&[_, value]: &[T; 2]| left_out <= share * value.abs();
         rough.filter(is_known).map_or(Sign::Open, Sign::OfLeast)
     }
@@ -257,6 +259,24 @@ mod tests {
                 let is_unknown = found.found.first().is_some_and(|worst| worst.value.is_nan());
                 assert_eq!(is_unknown, hidden > 0.0, "{hidden}: {:?}", found.found);
             }
+        }
+    }
+
+    /// A gap is closed if it is too narrow to be told, and its pressure is known.
+    #[test]
+    fn a_gap_of_unknown_pressure_is_not_closed() {
+        let on = Interval { left: -0.2, right: 0.2 };
+        let unknown = (f64::NAN, 1e-15, false);
+        for (hidden, half, closes) in [(-1e9, 1e-15, true), (-1e9, 1e-3, false), unknown] {
+            let pressures = |x: &[f64], pressures: &mut [f64]| {
+                for (pressure, x) in pressures.iter_mut().zip(x) {
+                    let is_hidden = (x - 0.1).abs() < half;
+                    *pressure = if is_hidden { hidden } else { on.chebyshev_weight(*x) };
+                }
+                Ok(())
+            };
+            let (span, is_closed) = parting(&pressures, on, [0.1, hidden], 1e-12).unwrap();
+            assert!(is_closed == closes && span.contains(0.1), "{hidden} {half}: {span:?}");
         }
     }
 

@@ -3,7 +3,7 @@
 use super::super::peak::{places, rises};
 use super::super::pressure_integral::Density;
 use super::{Stress, StressPeak, Subsurface, checked_ratio};
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::{ContactError, EvaluationError, Fallible, Interval, Real, Side};
 
 /// Number of abscissae and of depths on the first grid.
@@ -257,7 +257,7 @@ impl<'s, T: Real, V: Fn(Stress<T>) -> Fallible<T, T>> Hill<'s, T, V> {
     /// unless it is too low to lead to the highest maximum.
     fn top(&self, features: &Features<T>) -> Fallible<T, StressPeak<T>> {
         let mut feet = self.first_look(features)?;
-        feet.sort_by(|(_, one), (_, other)| by_size(&other.value, &one.value));
+        feet.sort_by(|(_, one), (_, other)| ascending(&other.value, &one.value));
         let least = T::of(LEAST_PROMISING) * feet[0].1.value;
         let mut best = feet[0].1;
         for foot in feet.into_iter().take_while(|(_, foot)| foot.value >= least) {

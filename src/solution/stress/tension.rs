@@ -2,7 +2,7 @@
 
 use super::super::peak::{narrow, rises};
 use super::Subsurface;
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::{ContactError, EvaluationError, Extremum, Fallible, Interval, Real, Side};
 
 impl<T: Real> Subsurface<'_, T> {
@@ -45,7 +45,7 @@ impl<T: Real> Subsurface<'_, T> {
             for x in [self.wide_grid(contact, on), self.limits(on)].concat() {
                 grid.push([x, self.tension(x, on)?]);
             }
-            grid.sort_by(|[one, _], [other, _]| by_size(one, other));
+            grid.sort_by(|[one, _], [other, _]| ascending(one, other));
             for rise in rises(&grid) {
                 if rise.bound <= best.value {
                     break;

@@ -6,7 +6,7 @@
 
 use super::{Bending, Spread, load};
 use crate::kernel::{loads, punch};
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::{ContactError, Fallible, Interval, Real, SolveError};
 
 /// Least distance of the cut from the contacts, by the widest gap; and least width of a gap in
@@ -116,7 +116,7 @@ fn widest_gap<T: Real>(contacts: &[Interval<T>], period: T) -> [T; 2] {
 /// Lists the intervals of pressures from left to right; those before and after a step overlap.
 pub(super) fn merged<T: Real>(spreads: &[Spread<T>]) -> Vec<Interval<T>> {
     let mut ends: Vec<Interval<T>> = spreads.iter().map(|spread| spread.on).collect();
-    ends.sort_by(|one, other| by_size(&one.left, &other.left));
+    ends.sort_by(|one, other| ascending(&one.left, &other.left));
     ends.dedup_by(|next, last| {
         let is_one = next.left <= last.right;
         last.right = if is_one { last.right.max(next.right) } else { last.right };

@@ -4,7 +4,7 @@
 use super::beside::{Beside, Verdict};
 use super::{Overlaps, SignoriniCheck};
 use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::quadrature::panels::Rises;
 use crate::solution::Solved;
 use crate::solve::exterior_field::ExteriorFields;
@@ -123,7 +123,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             if !dips.is_empty() {
                 return Ok(());
             }
-            open.sort_by(|one, other| by_size(&one[0], &other[0]));
+            open.sort_by(|one, other| ascending(&one[0], &other[0]));
             let mut is_finer =
                 !open.is_empty() && look.refine_at(self.gap, [&open; 2], T::zero(), cost)?;
             // A narrow contact hides little of the load.

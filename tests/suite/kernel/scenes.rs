@@ -2,7 +2,7 @@
 
 use super::oracle::{compliance, residual};
 use super::{coated, half_plane, layer};
-use crate::common::{Profile, graph};
+use crate::common::{Profile, graph, join};
 use crate::corners::polygon;
 use crate::random_scenes::Dice;
 use linecontact::profile::Ellipse;
@@ -113,6 +113,26 @@ fn lands_press_a_layer() {
             assert!((one - other).abs() < 1e-6 * load, "{seed}: {loads:?}");
         }
         assert!((loads.iter().sum::<f64>() / load - 1.0).abs() < 1e-6, "{seed}: {loads:?}");
+    }
+}
+
+/// A plain joint within rounding of a limit is no corner: Eq. (1) is met to rounding.
+#[test]
+fn a_joint_beside_a_limit_leaves_a_coated_contact_as_exact() {
+    let bowl = |x: f64| [0.5 * x * x, x];
+    for (ratio, thickness) in [(0.3, 0.3), (0.45, 0.05), (0.5, 0.02), (0.3, 0.01)] {
+        let layer = layer(1.0, ratio, thickness, Base::Bonded);
+        let whole = graph(-2.0, 2.0, bowl);
+        let exact = coated(&whole, layer, Material::Rigid).solve(Control::HalfWidth(0.3)).unwrap();
+        for ulps in [-2, -1, 1, 2] {
+            let at = f64::from_bits(exact.a().to_bits().wrapping_add_signed(ulps));
+            let body = join(vec![graph(-2.0, at, bowl), graph(at, 2.0, bowl)]);
+            let solution = coated(&body, layer, Material::Rigid).solve(Control::Load(exact.load()));
+            let solution = solution.unwrap();
+            let off = (solution.a() - exact.a()).abs().max((solution.b() - exact.b()).abs());
+            let scene = format!("{thickness}, {ulps}: {off:e}, {solution}");
+            assert!(off < 1e-12 && solution.limits_error() < Some(1e-11), "{scene}");
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::super::super::fault::Fault;
 use super::{MAX_CUT, MAX_CUT_STEPS, NewtonSeveral, Width};
 use crate::Real;
 use crate::gap::Gap;
-use crate::numerics::by_size;
+use crate::numerics::ascending;
 use crate::solution::CLOSED_WIDTH;
 
 /// Least share of its width that a contact or a gap keeps in one step.
@@ -62,7 +62,7 @@ impl<T: Real> NewtonSeveral<T> {
         order.clear();
         order.extend(0..count - 1);
         // The narrowest first: their limits may move by more than the width.
-        order.sort_unstable_by(|&one, &other| by_size(&self.width(one), &self.width(other)));
+        order.sort_unstable_by(|&one, &other| ascending(&self.width(one), &self.width(other)));
         for &i in &order {
             let width = self.width(i);
             let change = self.moves[i + 1] - self.moves[i];
