@@ -27,8 +27,8 @@ pub enum Control<T> {
     /// ([`Solution::is_apart`](crate::Solution::is_apart)).
     Load(T),
     /// Half-width L = (a + b)/2, a length; of several contacts, from the first limit to the last.
-    /// With a [period](crate::Contact::period) those begin where the solve cuts it, which changes
-    /// with the load: several loads may have this half-width, and one of them is found.
+    /// With a [period](crate::Contact::period) the first limit is the first after the cut, whose
+    /// place changes with the load: several loads may give this half-width, and one is found.
     HalfWidth(T),
     /// Largest pressure p₀ = max P(x) of all contacts, between edges where the pressure is bounded:
     /// a pressure.

@@ -744,7 +744,7 @@ class Contact(Unchanging):
             Load per unit length F: force/length.
         half_width : float
             Half-width L, in place of a load: a length; of several contacts, from the first limit to
-            the last. With a `period` several loads may have that of several contacts.
+            the last. With a `period` several loads may give the same one.
         peak_pressure : float
             Peak pressure, in place of a load: a pressure.
         approach : float

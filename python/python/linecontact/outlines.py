@@ -77,7 +77,7 @@ class Outline:
         return self._with("arc", radius=radius, length=length)
 
     def corner(self, slope: float) -> Outline:
-        """Makes a corner: the next segment starts with this slope dY/dX, whatever that before was."""
+        """Makes a corner: the next segment starts with this slope dY/dX, whatever the slope before."""
         return self._with("corner", slope=slope)
 
     def fillet(self, radius: float) -> Outline:
