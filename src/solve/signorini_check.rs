@@ -67,8 +67,9 @@ impl<T: Real> TensionSpans<T> {
 /// Dips of the loaded gap in which bodies overlap.
 #[derive(Clone)]
 pub(super) struct Overlaps<T> {
-    /// Lowest place of each dip, with the gap there, `[x, gap]`, by rising x.
-    pub dips: Vec<[T; 2]>,
+    /// Lowest place of each dip, with the gap there, and the share of the fall in the change of its
+    /// slope, `[x, gap, share]`, by rising x.
+    pub dips: Vec<[T; 3]>,
     /// Spans outside the contacts that a heavier load has closed.
     pub closed_before: Vec<Interval<T>>,
 }
@@ -79,7 +80,7 @@ impl<T: Real> Overlaps<T> {
     }
 
     /// Returns the deepest dip.
-    pub fn worst(&self) -> Option<[T; 2]> {
+    pub fn worst(&self) -> Option<[T; 3]> {
         let dips = self.dips.iter().copied();
         dips.reduce(|worst, dip| if dip[1] < worst[1] { dip } else { worst })
     }

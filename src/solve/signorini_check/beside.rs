@@ -19,6 +19,8 @@ pub(super) struct Beside<T> {
     pub height: T,
     pub hidden: T,
     pub taken: T,
+    /// Uncertainty of the potentials in the region, as a height.
+    pub doubt: T,
 }
 
 impl<T: Real> Beside<T> {

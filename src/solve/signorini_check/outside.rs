@@ -118,8 +118,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let heights = first.into_iter().chain(lows).chain(last);
             open.clear();
             hidden.clear();
-            let found = [&mut *dips, &mut open];
-            self.overlap_at(fields, look, heights, (found, &mut hidden), cost)?;
+            let found = (&mut *dips, &mut open, &mut hidden);
+            self.overlap_at(fields, look, heights, found, cost)?;
             if !dips.is_empty() {
                 return Ok(());
             }
@@ -137,14 +137,27 @@ impl<T: Real> SignoriniCheck<'_, T> {
         }
         // What the series leave open, the pressures themselves decide.
         for x in hidden {
-            dips.extend(self.overlap_by_pressures(x, cost));
+            dips.extend(self.overlap_by_pressures(fields, x, cost));
         }
         Ok(())
     }
 
+    /// Returns the share of the fall towards a place in the change of the loaded slope there: from
+    /// zero to one at a corner, else no number or infinite.
+    fn lean(&self, fields: &ExteriorFields<T>, x: T, sampler: &mut Sampler<T>) -> Fallible<T, T> {
+        let [before, after] = Side::BOTH.map(|side| sampler.slope_from(self.gap, x, side));
+        let before = before?;
+        Ok((self.rate(fields, x) - before) / (after? - before))
+    }
+
     /// Returns a place with the gap there by the pressures themselves, if it is known and the
     /// bodies overlap. (At an upright end a curve tells no height.)
-    fn overlap_by_pressures(&self, x: T, cost: &mut Cost) -> Option<[T; 2]> {
+    fn overlap_by_pressures(
+        &self,
+        fields: &ExteriorFields<T>,
+        x: T,
+        cost: &mut Cost,
+    ) -> Option<[T; 3]> {
         let &Self { gap, engine: integrator, kappa, found, .. } = self;
         let mut sampler = Sampler::default();
         sampler.height(gap, x).ok()?;
@@ -152,7 +165,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let open = Solved { gap, integrator, kappa, found }.gap_at(x).ok()?;
         // Here, there, and at the limit.
         cost.heights += 3 * sampler.cost.evaluations;
-        (open < -allowed).then_some([x, open])
+        (open < -allowed).then_some([x, open, self.lean(fields, x, &mut sampler).ok()?])
     }
 
     /// Compares the rise of the gap over one contact by its slopes and by the heights of the
@@ -236,7 +249,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         fields: &ExteriorFields<T>,
         look: &Survey<T>,
         heights: impl Iterator<Item = LowPoint<T>>,
-        ([dips, open], hidden): ([&mut Vec<[T; 2]>; 2], &mut Vec<T>),
+        (dips, open, hidden): (&mut Vec<[T; 3]>, &mut Vec<[T; 2]>, &mut Vec<T>),
         cost: &mut Cost,
     ) -> Fallible<T, ()> {
         let (contacts, hull) = (self.contacts, self.found.interval);
@@ -403,31 +416,26 @@ impl<T: Real> SignoriniCheck<'_, T> {
         };
         let blind = [blind(next.checked_sub(1), Side::Right), blind(Some(next), Side::Left)];
         let taken = fields.potential(edge);
-        Beside { next, edge, room, near, blind, height, hidden, taken }
-    }
-
-    /// Returns the uncertainty of the potentials in a region, as a height. On both of its sides the
-    /// gap is closed: what the potentials leave of it is their error.
-    fn doubt(&self, fields: &ExteriorFields<T>, from: &Beside<T>) -> T {
-        let Beside { next, room, height, taken, .. } = *from;
-        let doubt = fields.doubt_in(room) / self.kappa;
-        let several = self.panels.several().filter(|_| next > 0 && next < self.contacts.len());
-        several.map_or(doubt, |several| {
+        // On both sides of a region the gap is closed: what the potentials leave of it is their
+        // error.
+        let left_out = fields.doubt_in(room) / self.kappa;
+        let several = self.panels.several().filter(|_| is_limit == [true; 2]);
+        let doubt = several.map_or(left_out, |several| {
             let rise = several.height(next, Side::Left) - height;
-            doubt.max((rise - (fields.potential(room.right) - taken) / self.kappa).abs())
-        })
+            left_out.max((rise - (fields.potential(room.right) - taken) / self.kappa).abs())
+        });
+        Beside { next, edge, room, near, blind, height, hidden, taken, doubt }
     }
 
     /// Judges an unloaded height, given its place and its uncertainty.
     fn verdict(&self, fields: &ExteriorFields<T>, from: &Beside<T>, at: [T; 3]) -> Verdict {
         let ([x, height, hidden], allowed) = (at, self.allowed(at[1], from.height));
         let gap = height - from.height - (fields.potential(x) - from.taken) / self.kappa;
-        if gap - hidden >= -allowed {
-            return Verdict::Apart;
-        }
         // The series of the pressures leave this uncertain.
-        let doubt = self.doubt(fields, from);
-        if gap - hidden >= -(allowed + doubt) {
+        let doubt = from.doubt;
+        if gap - hidden - doubt >= -allowed {
+            Verdict::Apart
+        } else if gap - hidden >= -(allowed + doubt) {
             Verdict::Unresolved
         } else if gap + hidden >= -(allowed + doubt) {
             Verdict::Hidden
@@ -450,7 +458,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         from: &Beside<T>,
         x: T,
         cost: &mut Cost,
-    ) -> Fallible<T, (Option<[T; 2]>, bool)> {
+    ) -> Fallible<T, (Option<[T; 3]>, bool)> {
         let mut sampler = Sampler::default();
         let height = sampler.height(self.gap, x)?;
         let at_edge = match self.panels.several() {
@@ -473,8 +481,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         if !is_sound {
             allowed += T::of(8.0) * (rise - due).abs() + sampler.noise_of_height(self.gap, x)?;
         }
+        let share = self.lean(fields, x, &mut sampler)?;
         cost.heights += sampler.cost.evaluations;
-        let is_open = gap >= -(allowed + self.doubt(fields, from));
-        Ok(((!is_open).then_some([x, gap]), is_open && gap < -allowed))
+        let is_open = gap >= -(allowed + from.doubt);
+        Ok(((!is_open).then_some([x, gap, share]), is_open && gap - from.doubt < -allowed))
     }
 }

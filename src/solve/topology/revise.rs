@@ -6,7 +6,7 @@
 //! | overlap in dips | one more contact in each dip |
 //! | gaps that close | the contacts next to them become one |
 //! | contacts that vanish | the other contacts |
-//! | a limit that passes a corner, or an end for which the load is sought | it is put there |
+//! | a limit that passes a corner | it is put there |
 //! | anything else, or the set before the last again | the set of the cells |
 //! | of one contact | the lowest gap, if it was not looked for; the set of the cells |
 //! | an end of the bodies is passed, and the cells are no help | none: the load may be too large |
@@ -74,11 +74,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
             }
             Fault::Beyond(side) if at_corner[side] => {
                 put(on, side, ends[side]);
-                (Outcome::ReachedCorner, Start::Attempt)
-            }
-            // This end is reached under a smaller load.
-            Fault::Beyond(side) if self.end.is_some() => {
-                self.end = Some(side);
                 (Outcome::ReachedCorner, Start::Attempt)
             }
             Fault::Final(error) => return (Outcome::NotFound, Err(error)),
@@ -206,13 +201,16 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         let half = T::of(0.5);
         let aside = T::of(SEED_WIDTH) * (ends.right - ends.left);
-        for &[x, _] in &overlaps.dips {
+        for &[x, _, share] in &overlaps.dips {
             let at = on.partition_point(|on| on.right < x);
             let left = if at == 0 { ends.left } else { on[at - 1].right };
             let right = on.get(at).map_or(ends.right, |next| next.left);
+            // At a corner the contact has the place of a wedge's, mostly on its flatter side.
+            let is_corner = share > T::zero() && share < T::one();
+            let lean = if is_corner { (T::pi() * share).cos() } else { T::zero() };
             let seed = Interval {
-                left: (x - aside).max(half * (x + left)),
-                right: (x + aside).min(half * (x + right)),
+                left: (x - aside * (T::one() + lean)).max(half * (x + left)),
+                right: (x + aside * (T::one() - lean)).min(half * (x + right)),
             };
             if seed.left < seed.right {
                 on.insert(at, seed);
@@ -223,12 +221,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Returns the sides at which a corner may hold the contacts.
     pub(super) fn corners(&self) -> Ends<bool> {
-        let mut corners =
-            self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)));
-        if let Some(side) = self.end {
-            corners[side] = false;
-        }
-        corners
+        self.contact.edges.map(|edge| matches!(edge, Edge::Fixed(_) | Edge::FreeUntil(_)))
     }
 
     /// Takes the contacts from a coarse active set, with more cells after each failure.
