@@ -104,7 +104,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         if self.contact.single_interval {
             return Ok(self.start_of_one());
         }
-        if self.work.workspace.last.len() > 1 || self.end.is_some() {
+        if self.work.workspace.last.len() > 1 {
             return self.start_of_several();
         }
         let start = self.start_of_one();
@@ -147,12 +147,11 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         }
         let Workspace { last, newton, .. } = &mut *self.work.workspace;
         let change = self.conditions.load() / self.conditions.kappa / newton.load - T::one();
-        if self.end.is_none() && T::count(last.len()) * change * change > T::of(MAX_CHANGE) {
+        if T::count(last.len()) * change * change > T::of(MAX_CHANGE) {
             last.clear();
         }
         newton.on.clone_from(last);
-        let is_near = last.len() > 1 || self.end.is_some() && !last.is_empty();
-        Ok(if is_near { Start::Last } else { Start::ActiveSet })
+        Ok(if last.len() > 1 { Start::Last } else { Start::ActiveSet })
     }
 
     /// Moves the contacts from a start until they are in equilibrium.

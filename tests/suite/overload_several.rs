@@ -222,6 +222,6 @@ fn random_bodies_bear_what_the_error_says() {
     );
     assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
     assert!(several >= 30 && touching >= 20 && nothing >= 5, "{several} {touching} {nothing}");
-    // The dearest takes 6 354 evaluations where a solve takes 103. (They were 6 411 and 114.)
-    assert!(dearest[0] <= 62.0 && dearest[1] <= 200.0, "{dearest:?}");
+    // Evaluations, as shares of those of a solve, or of 100 if it takes less.
+    assert!(dearest[0] <= 50.0 && dearest[1] <= 34.0, "{dearest:?}");
 }

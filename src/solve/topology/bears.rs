@@ -11,9 +11,9 @@ use super::super::active_set::FIRST_CELLS;
 use super::super::capacity::Capacity;
 use super::super::edges::{Conditions, Given};
 use super::revise::is_lost;
-use super::{Contact, Search, Work, settle};
+use super::{Contact, Search, Work, Workspace, settle};
 use crate::quadrature::LoadCase;
-use crate::solution::{ContactState, Solved, largest_pressure};
+use crate::solution::{ContactState, Solved, Start, largest_pressure};
 use crate::{ContactError, Ends, Fallible, Interval, Real, Side, SolveError};
 
 /// Ratio of the loads that enclose the one under which cells reach an end of the bodies.
@@ -73,7 +73,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let is_open = self.runs_out.is_none() && is_lost(&error);
         let flat = if is_open { self.end_of_flat() } else { None };
         let may_run_out = self.runs_out.is_some() || is_blind && is_nowhere || flat.is_some();
-        if !may_run_out || self.end.is_some() {
+        if !may_run_out {
             return Err(error);
         }
         let (ends, conditions) = (self.contact.ends(), self.conditions);
@@ -144,12 +144,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
 
     /// Returns the part of the load that the bodies bear, if it is not zero.
     fn under_some_load(&mut self, conditions: &Conditions<T>) -> Option<Borne<T>> {
-        let (low, high) = self.end_reached_by(conditions)?;
+        let low = self.reaches_no_end(conditions);
         // The contacts last found may be far from those sought.
         self.work.workspace.keep(&[]);
-        let exact = high.and_then(|(load, side)| self.up_to_end(&conditions.under(load), side));
-        let exact = exact.filter(|exact| exact.load < conditions.load());
-        exact.map(Err).or_else(|| self.until_closed(conditions, low))
+        self.until_closed(conditions, low)
     }
 
     /// Returns an end of the bodies that is one of the two supports of a light load acting at `at`.
@@ -180,7 +178,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         None
     }
 
-    /// Returns the contacts under the load that puts a limit at an end of the bodies.
+    /// Returns the contacts under the load that puts a limit at an end of the bodies, by Newton's
+    /// method from the contacts found last.
     fn up_to_end(&mut self, conditions: &Conditions<T>, end: Side) -> Option<Capacity<T>> {
         // Bodies that turn bear another load.
         if conditions.at().is_some() {
@@ -188,7 +187,10 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         let mut search = Search::new(self.contact, *conditions, &mut *self.work);
         search.end = Some(end);
-        let found = settle(&mut search).ok()?;
+        let Workspace { newton, last, .. } = &mut *search.work.workspace;
+        newton.on.clone_from(last);
+        let found = search.equilibrium(Start::Last).ok()?;
+        search.check(&found).ok()?;
         let (on, room) = (found.interval, self.room(found.interval));
         // A single contact as wide as the widest balanced one may be a different one.
         if room[lower(room)] > T::epsilon().sqrt() * on.half_width() {
@@ -220,6 +222,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
             };
             if next.load() >= asked {
                 return Some(Ok(found));
+            }
+            let side = lower(closer);
+            if closer[side] < half * gaps[side]
+                && let Some(exact) = self.up_to_end(&next, side).filter(|exact| exact.load < asked)
+            {
+                return Some(Err(exact));
             }
             let further = secant(gaps.left, closer.left).min(secant(gaps.right, closer.right));
             step = further * (next.load() - load);
@@ -276,39 +284,27 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Some(Capacity { half_width, end, load, peak })
     }
 
-    /// Returns a load under which cells reach no end of the bodies, and one not much larger under
-    /// which they do, with the end. The larger load is `None` if the cells under the full load
-    /// reach no end.
-    fn end_reached_by(&mut self, conditions: &Conditions<T>) -> Option<(T, Option<(T, Side)>)> {
-        let mut end_reached = |load: T| {
+    /// Returns a load under which cells reach no end of the bodies, not much less than one under
+    /// which they do; the least one that cells tell if they always do, as next to an end.
+    fn reaches_no_end(&mut self, conditions: &Conditions<T>) -> T {
+        let mut is_free = |load: T| {
             let coarse = self.coarse(&conditions.under(load), FIRST_CELLS).ok()?;
-            Some(self.end_reached(&coarse))
+            Some(self.end_reached(&coarse).is_none())
         };
-        let (mut load, mut share, mut high) = (conditions.load(), T::of(FIRST_FRACTION), None);
-        let mut low = None;
+        let (mut low, mut high, mut share) = (conditions.load(), None, T::of(FIRST_FRACTION));
         for _ in 0..=MAX_SHARES {
-            match end_reached(load)? {
-                Some(end) => high = Some((load, end)),
-                None => {
-                    low = Some(load);
-                    break;
-                }
+            match is_free(low) {
+                Some(true) => break,
+                Some(false) => (low, high) = (share * conditions.load(), Some(low)),
+                None => return high.unwrap_or(low),
             }
-            load = share * conditions.load();
             share *= share;
         }
-        // Cells reach an end even under the smallest load.
-        let Some(mut low) = low else { return Some((load, high)) };
-        while let Some((above, _)) = high
-            && above > T::of(BRACKET_RATIO) * low
-        {
+        while let Some(above) = high.filter(|&above| above > T::of(BRACKET_RATIO) * low) {
             let load = low.sqrt() * above.sqrt();
-            match end_reached(load)? {
-                Some(end) => high = Some((load, end)),
-                None => low = load,
-            }
+            if is_free(load) == Some(true) { low = load } else { high = Some(load) }
         }
-        Some((low, high))
+        low
     }
 }
 
