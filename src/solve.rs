@@ -89,7 +89,7 @@ impl<'b, T: Real> Contact<'b, T> {
     /// for bodies and loads that do not go together; [`InputError::Profile`],
     /// [`SolveError::Inversion`] from sampling the bodies; [`SolveError::LimitSearch`],
     /// [`SolveError::EdgePressureNotMet`], [`SolveError::Overflow`], [`SolveError::NoPeak`],
-    /// [`SolveError::InJump`], [`SolveError::BudgetSpent`],
+    /// [`SolveError::InJump`], [`SolveError::LoadUnknown`], [`SolveError::BudgetSpent`],
     /// [`InputError::InconsistentHeights`] from the search; [`InputError::InvalidMoment`],
     /// [`InputError::TiltNotSupported`], [`SolveError::TiltNotFound`] with a given moment;
     /// [`InputError::InvalidYoungsModulus`], [`InputError::InvalidPoissonRatio`],
@@ -250,8 +250,8 @@ fn settle<T: Real>(search: &mut Search<'_, '_, '_, T>) -> Fallible<T, ContactSta
     Err(search.not_found())
 }
 
-/// Tells whether a half-width may belong to several contacts, by the error of the search for one:
-/// several may be wider.
+/// Tells whether a half-width may belong to several contacts, or to none as the width jumps at
+/// corners, by the error of the search for one.
 fn may_have_several<T: Real>(
     contact: &Contact<'_, T>,
     error: &ContactError<T>,
@@ -264,8 +264,9 @@ fn may_have_several<T: Real>(
     else {
         return false;
     };
-    let may_be_one = contact.single_interval || contact.gap.is_convex();
-    !may_be_one && work.may_find_several(contact)
+    let is_one = contact.single_interval || contact.gap.is_convex();
+    let may_jump = matches!(error, ContactError::Solve(NoEquilibrium { .. }));
+    (may_jump || !is_one) && work.may_find_several(contact)
 }
 
 /// Finds the contact with edges by the paper's Eq. (6), under a given load.

@@ -207,6 +207,7 @@ table! {
     PeakTooHigh { wanted, half_width, found, end, load, kappa_is_default };
     NoPeak { wanted, half_width, found };
     InJump { wanted, load, below, above };
+    LoadUnknown { half_width, load };
     ApproachTooLarge { wanted, approach, load };
     Falls { quantity, load, rate };
     ToleranceNotReached { tolerance, reached };

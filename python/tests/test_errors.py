@@ -17,6 +17,7 @@ from linecontact import _native, errors
 
 SOURCE = Path(__file__).parents[2] / "src"
 FLAT = lc.Flat()
+LAND = lc.Contact(FLAT, lc.Outline().line(1.0).corner(0.1).line(1.0).mirrored().body(), kappa=1.0)
 # Two equal hills at -1 and 1.
 HILLS = lc.Contact(
     FLAT,
@@ -321,6 +322,8 @@ CASES: list[tuple[Callable[[], Any], str, dict[str, Any]]] = [
     ),
     (lambda: contact().solve(peak_pressure=9.0), "PeakTooHighError", {"wanted": 9.0}),
     (lambda: HILLS.solve(half_width=0.5), "InJumpError", {"wanted": 0.5, "below": 0.0}),
+    (lambda: LAND.solve(half_width=0.5), "InJumpError", {"wanted": 0.5, "below": 0.0, "above": 1.0}),
+    (lambda: LAND.solve(half_width=1.0), "LoadUnknownError", {"half_width": 1.0}),
     (
         lambda: lc.Contact(FLAT, lc.Wedge((-0.1, 0.1), 1.0), kappa=1.0).solve(peak_pressure=1.0),
         "NoPeakError",
@@ -716,6 +719,8 @@ def anything(made: Any) -> Any:
 # Wrong call; exception; parts of its message: the value found, and the remedy.
 MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     (lambda: material_of(STEEL), TypeError, ("materials are Material(", "such as (steel, steel)")),
+    (lambda: lc.Contact(FLAT, ANY.Outline().line(1.0)), TypeError, ("is no Body", "take its body()")),
+    (lambda: material_of(("steel", STEEL)), TypeError, ("'steel' is no Material", "E and ν")),
     (lambda: material_of((STEEL, 210e3)), TypeError, ("210000.0 is no Material", "E and ν")),
     (lambda: material_of((STEEL,) * 3), TypeError, ("materials are", "one for the upper body")),
     (lambda: ANY.Ellipse.circle(10, 1.0), TypeError, ("angles is 1.0", "two numbers")),

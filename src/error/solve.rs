@@ -363,6 +363,17 @@ pub enum SolveError<T: Real> {
         /// Value under larger loads; infinite where the pressure is.
         above: T,
     },
+    /// Corners hold the limits, or nearly: x is too coarse to tell the load from the half-width.
+    #[error(
+        "a half-width of {} does not tell the load: corners hold the contact there, to the rounding of x, as under \
+         the load {}; give the load, or ask for a larger half-width", six(*half_width), six(*load)
+    )]
+    LoadUnknown {
+        /// The half-width asked for.
+        half_width: T,
+        /// One of the loads under which the contact has this half-width.
+        load: T,
+    },
     /// No contact that stays on the bodies has this approach.
     #[error(
         "an approach of {wanted} is more than the bodies bear: they carry {load}, with an approach of \

@@ -97,10 +97,11 @@ struct Point<T> {
 }
 
 impl<T: Real> Point<T> {
-    /// Returns the exponent of the load as a power of the quantity, if it is known.
+    /// Returns the exponent of the load as a power of the quantity, infinite where corners hold the
+    /// contacts; `None` if it is not known.
     fn power(&self) -> Option<T> {
         let power = self.value / (self.load * self.rate);
-        power.is_finite().then_some(power)
+        (power.abs() >= T::zero()).then_some(power)
     }
 
     /// Tells whether the quantity rises up to another point about like a power of the load: the
@@ -338,11 +339,12 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
     /// the step is shorter than the last one, it follows the cubic through both points, unless the
     /// quantity may fall between them.
     fn next(&self, at: Point<T>) -> T {
-        // The exponent of a round body, if the rate is unknown.
+        // The exponent of a round body, if the rate is not known.
         let power = at.power().unwrap_or(T::of(2.0));
         let ahead = (self.wanted / at.value).ln();
-        let last = self.last.filter(|_| !self.follows);
-        let last = last.and_then(|last| Some((last, last.power()?)));
+        let last = self.last.filter(|_| !self.follows && power.is_finite());
+        let last =
+            last.and_then(|last| Some((last, last.power().filter(|power| power.is_finite())?)));
         let bend = last.map_or(T::zero(), |(last, other)| {
             let [back, fell] = [last.value / at.value, last.load / at.load].map(|by| by.ln());
             let (mean, share) = (fell / back, ahead / back);
@@ -360,10 +362,11 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
     fn bound(&mut self, error: &ContactError<T>, load: T) -> Bound<T> {
         use SolveError::{
             Bending, CompleteContact, DomainTooShort, Falls, LiftsOff, NoEquilibrium,
+            NoFirstContact,
         };
         let (wanted, infinite) = (self.wanted, T::one() / T::zero());
-        let half_width = T::of(f64::NAN);
-        let unknown = |load: T, value: T| Point { load, value, rate: T::zero(), half_width };
+        let nan = T::of(f64::NAN);
+        let unknown = |load: T, value: T| Point { load, value, rate: nan, half_width: nan };
         if self.kernel.is_some() {
             // What half-planes, or bodies with the bend of another load, bear is no bound.
             return match *error {
@@ -398,8 +401,13 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                 unknown(carried.min(load), value)
             }
             ContactError::Solve(Falls { load, .. }) => unknown(load, infinite),
-            // So small a load is not held by a corner, or does not close a hollow.
-            ContactError::Solve(NoEquilibrium { .. } | LiftsOff { .. }) => unknown(load, T::zero()),
+            ContactError::Solve(NoEquilibrium { .. } | NoFirstContact { .. } | LiftsOff { .. }) => {
+                // So small a load is not held by a corner, does not close a hollow, or leaves no
+                // height to tell; unless a smaller one has been borne.
+                let is_more = |known: Point<T>| known.value > T::zero() && known.load <= load;
+                let is_too_large = [self.low, self.high].into_iter().flatten().any(is_more);
+                unknown(load, if is_too_large { infinite } else { T::zero() })
+            }
             _ => return Err(error.clone()),
         }))
     }

@@ -168,8 +168,14 @@ fn value(solution: &Solution<f64>, control: Control<f64>) -> Result<f64, Contact
     })
 }
 
-/// Describes the fault of the answer for a value, if any, by the contacts under loads.
-fn wrong(contact: &Contact<f64>, wanted: f64, control: Control<f64>) -> Option<String> {
+/// Describes the fault of the answer for a value, if any, by the contacts under loads: a share
+/// `aside` of that under which it jumps they are on its sides.
+pub fn wrong(
+    contact: &Contact<f64>,
+    wanted: f64,
+    control: Control<f64>,
+    aside: f64,
+) -> Option<String> {
     let under = |load: f64| {
         let solution = contact.solve(Control::Load(load))?;
         Ok::<_, ContactError<f64>>((value(&solution, control)?, solution.hull().half_width()))
@@ -187,7 +193,7 @@ fn wrong(contact: &Contact<f64>, wanted: f64, control: Control<f64>) -> Option<S
         Err(ContactError::Solve(SolveError::InJump { load, .. })) if load < 1e-13 => None,
         Err(error @ ContactError::Solve(SolveError::InJump { load, below, above, .. })) => {
             let sides = [below == 0.0, above.is_infinite()];
-            let [less, more] = [1.0 - 1e-5, 1.0 + 1e-5].map(|times| under(times * load));
+            let [less, more] = [1.0 - aside, 1.0 + aside].map(|times| under(times * load));
             let less = sides[0] || less.as_ref().is_ok_and(|&(less, _)| less <= wanted * 1.001);
             let more = sides[1] || more.as_ref().is_ok_and(|&(more, _)| more >= wanted / 1.001);
             (!(less && more && above > below * 1.001)).then(|| error.to_string())
@@ -236,7 +242,7 @@ fn random_bodies_by_half_width_and_peak() {
             let Ok(wanted) = value(&due, control(1.0)) else { continue };
             for wanted in [wanted, any] {
                 judged += 1;
-                let fault = wrong(&contact, wanted, control(wanted));
+                let fault = wrong(&contact, wanted, control(wanted), 1e-5);
                 faults.extend(fault.map(|fault| format!("{i} {:?}: {fault}", control(wanted))));
             }
         }

@@ -54,6 +54,7 @@ mod held_widths;
 mod invariants;
 mod joints;
 mod kernel;
+mod land_widths;
 mod largest_values;
 mod limits;
 mod loads;

@@ -320,6 +320,10 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             &["0.5 and 2.5", "not 1.5", "load 32.5", "both sides"],
         ),
         (
+            ContactError::Solve(SolveError::LoadUnknown { half_width, load }),
+            &["half-width of 31.5", "load 32.5", "corners hold", "give the load"],
+        ),
+        (
             ContactError::Evaluation(EvaluationError::AboveSurface { x: 1.5, depth: -2.5 }),
             &["x = 1.5", "depth -2.5"],
         ),

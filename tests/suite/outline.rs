@@ -1,7 +1,7 @@
 //! Bodies from lines and arcs: tangents, corners, fillets, chamfers, halves, and what cannot be
 //! drawn.
 
-use linecontact::profile::{Outline, Segment};
+use linecontact::profile::{Outline, Placement, Segment};
 use linecontact::{
     Contact, Control, CurvePoint, Flat, ParametricProfile, PiecewiseError, ProfileError,
 };
@@ -46,6 +46,27 @@ fn each_segment_continues_the_last() {
         near(left.y, y, "y");
         y += step;
         near(right.y, y, "y");
+    }
+}
+
+/// A wall that a rotation makes overhang is named, not the overlap with its neighbours; one with a
+/// longer run turns with the body.
+#[test]
+fn a_wall_turned_beyond_the_upright_is_named() {
+    for (run, overhangs) in [(1e-6, true), (1e-4, false)] {
+        let land = Outline::from([0.0, 0.1]).line(0.5).corner(-0.1 / run).line(run);
+        let pad = land.corner(0.0).line(2.0).corner(0.5).line(0.5).mirrored().build().unwrap();
+        for (angle, piece) in [(1e-4, 3), (-1e-4, 6)] {
+            let turned = pad.clone().placed(Placement::default().rotated(angle)).map(|_| ());
+            let expected = |error| match error {
+                PiecewiseError::InPiece { piece: at, source: ProfileError::TurnsBack { .. } } => {
+                    at == piece
+                }
+                _ => false,
+            };
+            assert_eq!(turned.clone().is_err_and(expected), overhangs, "{turned:?}");
+            assert!(overhangs || turned.is_ok(), "{turned:?}");
+        }
     }
 }
 

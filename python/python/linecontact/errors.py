@@ -1158,6 +1158,21 @@ class InJumpError(SolveError):
     above: float
 
 
+class LoadUnknownError(SolveError):
+    """Corners hold the limits, or nearly: x is too coarse to tell the load from the half-width.
+
+    Attributes
+    ----------
+    half_width : float
+        The half-width asked for.
+    load : float
+        One of the loads under which the contact has this half-width.
+    """
+
+    half_width: float
+    load: float
+
+
 class ApproachTooLargeError(SolveError):
     """No contact that stays on the bodies has this approach.
 
