@@ -118,13 +118,19 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
     ///
     /// # Errors
     /// Errors of [`Placed::new`], as [`PiecewiseError::InPiece`], with
-    /// [`ProfileError::Joined`](super::ProfileError) for a piece that is joined itself. As
+    /// [`ProfileError::Joined`](super::ProfileError) for a piece that is joined itself, and
+    /// [`ProfileError::TurnsBack`](super::ProfileError) for a wall that overhangs. As
     /// [`new`](Self::new) where a placed piece turns back in `X`.
     pub fn placed(
         self,
         placement: Placement<T>,
     ) -> Result<Piecewise<T, Placed<T, P>>, PiecewiseError<T>> {
         let tolerance = self.tolerance;
+        let rises = |part: &dyn ParametricProfile<T>| {
+            let [from, to] = part.domain();
+            part.x(from) < part.x(to)
+        };
+        let before: Vec<bool> = self.parts.iter().map(|part| rises(part)).collect();
         let place = |(i, part)| Placed::new(part, placement).map_err(PiecewiseError::in_piece(i));
         let parts = self.parts.into_iter().enumerate().map(place);
         let mut parts = parts.collect::<Result<Vec<_>, _>>()?;
@@ -132,7 +138,15 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
             let [from, to] = part.domain();
             part.x(T::of(0.5) * from + T::of(0.5) * to)
         };
-        if parts.first().map(middle) > parts.last().map(middle) {
+        let is_reversed = parts.first().map(middle) > parts.last().map(middle);
+        for (i, part) in parts.iter().enumerate() {
+            if (rises(part) != before[i]) != is_reversed {
+                let domain = part.domain();
+                let turned = ProfileError::TurnsBack { k: domain[0], x: part.x(domain[0]), domain };
+                return Err(PiecewiseError::in_piece(i)(turned));
+            }
+        }
+        if is_reversed {
             parts.reverse();
         }
         Piecewise::joined(parts, tolerance, |part| Piece::scanned(part))

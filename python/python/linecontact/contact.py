@@ -167,7 +167,7 @@ def _foundation(given: Foundation) -> tuple[Any, Any]:
     """Returns material and thickness of the layers of a body, and their base."""
     layers, base = _layers(given)
     sheets = [(_elastic(layer.material), layer.thickness) for layer in layers]
-    return sheets, base if isinstance(base, str) else _elastic(base)
+    return sheets, base if sheets and isinstance(base, str) else _elastic(base)
 
 
 def _both(materials: Sequence[Any]) -> Sequence[Any]:
@@ -628,7 +628,8 @@ class Contact(Unchanging):
     ) -> None:
         for body in (lower, upper):
             if not isinstance(body, Body):
-                raise TypeError(f"{body!r} is no Body: make one, such as Flat() or a Curve")
+                how = "take its body()" if hasattr(body, "body") else "make one, such as Flat() or a Curve"
+                raise TypeError(f"{body!r:.60} is no Body: {how}")
         one_of(plane, "plane", ("strain", "stress"))
         if plane != "strain" and materials is None:
             raise TypeError("the plane goes with materials: a contact_modulus or kappa has it already")
