@@ -85,8 +85,9 @@ impl<T: Real> std::ops::Deref for Ones<T> {
 #[derive(Clone)]
 struct One<T> {
     on: Interval<T>,
-    /// Breakpoints inside, rising.
+    /// Breakpoints inside, rising, and the next ones beyond the limits.
     breakpoints: Vec<T>,
+    beyond: [Option<T>; 2],
     /// Flags: `P w` vanishes at this limit.
     free: Ends<bool>,
     /// `P w` on the panels between the breakpoints, from the right one on.
@@ -101,8 +102,10 @@ impl<'p, T: Real> Integrals<T, Pressure<'p, T>> {
     pub fn new(solved: Solved<'p, T>) -> Result<Self, ContactError<T>> {
         let contacts = solved.contacts();
         let one = |(i, &on): (usize, &Interval<T>)| {
-            let breakpoints = solved.gap.breakpoints(on).collect();
-            One { on, breakpoints, free: solved.free(i), kept: OnceLock::new() }
+            let gap = solved.gap;
+            let beyond = [gap.breakpoint_before(on.left), gap.breakpoint_after(on.right)];
+            let breakpoints = gap.breakpoints(on).collect();
+            One { on, breakpoints, beyond, free: solved.free(i), kept: OnceLock::new() }
         };
         let contacts = Ones::of(contacts, one);
         Ok(Self { density: Pressure::new(solved)?, load: solved.found.load, contacts })
@@ -113,8 +116,8 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
     /// Prepares the density of a unit load that is smooth inside the contacts, and infinite at
     /// their limits.
     pub fn of_unit_load(density: D, contacts: &[Interval<T>]) -> Self {
-        let (breakpoints, free) = (Vec::new(), Ends::both(false));
-        let one = One { on: contacts[0], breakpoints, free, kept: OnceLock::new() };
+        let (breakpoints, beyond, free) = (Vec::new(), [None; 2], Ends::both(false));
+        let one = One { on: contacts[0], breakpoints, beyond, free, kept: OnceLock::new() };
         let contacts = Ones::of(contacts, |(_, &on)| One { on, ..one.clone() });
         Self { density, load: T::one(), contacts }
     }
@@ -331,7 +334,8 @@ impl<T: Real> One<T> {
         let Interval { left, right } = self.on;
         let mut distance = right - left;
         let next = self.breakpoints.partition_point(|&breakpoint| breakpoint < s);
-        for &breakpoint in self.breakpoints.iter().take(next + 1).skip(next.saturating_sub(1)) {
+        let inside = self.breakpoints.iter().take(next + 1).skip(next.saturating_sub(1));
+        for &breakpoint in inside.chain(self.beyond.iter().flatten()) {
             distance = distance.min((s - breakpoint).abs());
         }
         let rounding = T::of(0.25) * T::epsilon() * s.abs();
