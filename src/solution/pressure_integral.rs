@@ -219,17 +219,26 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         vanish.then_some(q)
     }
 
+    /// Returns a count of coefficients by integrals, as many at once as serve: each integral takes
+    /// pressures of its own.
     fn all_coefficients(&self, contact: usize, count: usize) -> Fallible<T, Vec<T>> {
-        /// Coefficients that are integrated together.
-        const COEFFICIENTS_TOGETHER: usize = 32;
+        match count {
+            ..=32 => self.in_blocks::<32>(contact, count),
+            ..=128 => self.in_blocks::<128>(contact, count),
+            _ => self.in_blocks::<512>(contact, count),
+        }
+    }
+
+    /// Returns a count of coefficients by integrals of N.
+    fn in_blocks<const N: usize>(&self, contact: usize, count: usize) -> Fallible<T, Vec<T>> {
         let on = self.contacts[contact].on;
-        let (one, mut q) = (T::one(), Vec::with_capacity(count + COEFFICIENTS_TOGETHER));
+        let (one, mut q) = (T::one(), Vec::with_capacity(count + N));
         while q.len() < count {
             let first = q.len();
             let block = self.over_one(contact, on.centre(), |distance, strength| {
                 let z = -distance / on.half_width();
-                let (mut pair, mut block) = ([one, z], [T::zero(); COEFFICIENTS_TOGETHER]);
-                for k in 0..first + COEFFICIENTS_TOGETHER {
+                let (mut pair, mut block) = ([one, z], [T::zero(); N]);
+                for k in 0..first + N {
                     if k >= first {
                         block[k - first] = strength * if k == 0 { one } else { pair[0] + pair[0] };
                     }
