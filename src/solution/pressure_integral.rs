@@ -223,8 +223,8 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
     /// pressures of its own.
     fn all_coefficients(&self, contact: usize, count: usize) -> Fallible<T, Vec<T>> {
         match count {
-            ..=32 => self.in_blocks::<32>(contact, count),
-            ..=128 => self.in_blocks::<128>(contact, count),
+            0..=32 => self.in_blocks::<32>(contact, count),
+            33..=128 => self.in_blocks::<128>(contact, count),
             _ => self.in_blocks::<512>(contact, count),
         }
     }

@@ -10,7 +10,6 @@
 //! | free, next to a corner, or beyond one at an end | held there |
 //! | free, beyond a corner by hardly more than x is known | held there |
 //! | held, and nothing found, or contacts that vanish or meet | let go, where it was |
-//! | held, K > 0, and no wall up to the next contact or hollow corner | let go, where it was |
 //! | held, K < 0 | let go inward, to where it was if that is inward, the lowest first |
 //! | held, K > 0, inside the bodies | put beyond the corner by d, the furthest first |
 //! | held, K > 0, d/L less than the rounding of x over d | held: d is the error of the limit |
@@ -306,9 +305,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
             if z == ends[side] {
                 continue;
             }
-            let Some(d) = self.beyond(contact, side, strength)? else {
-                return Ok(self.lets_all_go());
-            };
+            let d = self.beyond(contact, side, strength)?;
             // The rounding of x changes the pressure by a share ε x/(2 d).
             let rounding = T::epsilon() * z.abs().max(half_width);
             if d.abs() > (rounding * half_width).sqrt() {
@@ -372,9 +369,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
     }
 
     /// Returns the distance d beyond a corner at which a contact ends, given the strength with the
-    /// limit held there: up to half a half-width; `None` if it is not below half the gap to the
-    /// next contact, so that both meet, or beyond a hollow corner.
-    fn beyond(&mut self, contact: usize, side: Side, strength: T) -> Fallible<T, Option<T>> {
+    /// limit held there: up to half a half-width, half the gap to the next contact, or a hollow
+    /// corner.
+    fn beyond(&mut self, contact: usize, side: Side, strength: T) -> Fallible<T, T> {
         let rule = GaussLegendre::coarsest();
         let (half, on) = (T::of(0.5), self.work.workspace.newton.on[contact]);
         let (z, half_width) = (on[side], on.half_width());
@@ -404,22 +401,18 @@ impl<T: Real> Search<'_, '_, '_, T> {
         // told from the corner.
         let rounding = (T::of(8.0) * T::epsilon() * z.abs()).sqrt();
         let mut low = (due / (steepest + steepest)).max(rounding).min(most);
-        let (mut high, mut share) = (low, T::zero());
+        let mut high = low;
         for _ in 0..MAX_ROOT_DOUBLINGS {
-            share = share_at(high)?;
-            if high >= most || share >= T::one() {
+            if high >= most || share_at(high)? >= T::one() {
                 break;
             }
             (low, high) = (high, (high + high).min(most));
-        }
-        if share < T::one() && reach < free {
-            return Ok(None);
         }
         for _ in 0..HALVINGS {
             let root = (low * high).sqrt();
             if share_at(root)? < T::one() { low = root } else { high = root }
         }
-        Ok(Some(low * high))
+        Ok(low * high)
     }
 }
 
