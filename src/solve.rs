@@ -258,15 +258,11 @@ fn may_have_several<T: Real>(
     work: &Work<'_, T>,
 ) -> bool {
     use SolveError::{HalfWidthTooLarge, NoEquilibrium, Overlap, Tension};
-    let ContactError::Solve(
-        NoEquilibrium { .. } | Overlap { .. } | Tension { .. } | HalfWidthTooLarge { .. },
-    ) = error
-    else {
-        return false;
-    };
+    let ContactError::Solve(error) = error else { return false };
+    let may_jump = matches!(error, NoEquilibrium { .. });
+    let may_be_wider = matches!(error, Overlap { .. } | Tension { .. } | HalfWidthTooLarge { .. });
     let is_one = contact.single_interval || contact.gap.is_convex();
-    let may_jump = matches!(error, ContactError::Solve(NoEquilibrium { .. }));
-    (may_jump || !is_one) && work.may_find_several(contact)
+    (may_jump || may_be_wider && !is_one) && work.may_find_several(contact)
 }
 
 /// Finds the contact with edges by the paper's Eq. (6), under a given load.

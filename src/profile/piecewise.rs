@@ -130,23 +130,19 @@ impl<T: Real, P: ParametricProfile<T>> Piecewise<T, P> {
             let [from, to] = part.domain();
             part.x(from) < part.x(to)
         };
-        let before: Vec<bool> = self.parts.iter().map(|part| rises(part)).collect();
-        let place = |(i, part)| Placed::new(part, placement).map_err(PiecewiseError::in_piece(i));
+        let place = |(i, part): (usize, P)| {
+            let rose = rises(&part);
+            let part = Placed::new(part, placement).map_err(PiecewiseError::in_piece(i))?;
+            if (rises(&part) != rose) == placement.reverses() {
+                return Ok(part);
+            }
+            let [k, to] = part.domain();
+            let turned = ProfileError::TurnsBack { k, x: part.x(k), domain: [k, to] };
+            Err(PiecewiseError::in_piece(i)(turned))
+        };
         let parts = self.parts.into_iter().enumerate().map(place);
         let mut parts = parts.collect::<Result<Vec<_>, _>>()?;
-        let middle = |part: &Placed<T, P>| {
-            let [from, to] = part.domain();
-            part.x(T::of(0.5) * from + T::of(0.5) * to)
-        };
-        let is_reversed = parts.first().map(middle) > parts.last().map(middle);
-        for (i, part) in parts.iter().enumerate() {
-            if (rises(part) != before[i]) != is_reversed {
-                let domain = part.domain();
-                let turned = ProfileError::TurnsBack { k: domain[0], x: part.x(domain[0]), domain };
-                return Err(PiecewiseError::in_piece(i)(turned));
-            }
-        }
-        if is_reversed {
+        if placement.reverses() {
             parts.reverse();
         }
         Piecewise::joined(parts, tolerance, |part| Piece::scanned(part))

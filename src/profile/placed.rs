@@ -113,6 +113,11 @@ impl<T: Real> Placement<T> {
         if self.is_upright() { [a * x, d * y] } else { [a * x + b * y, c * x + d * y] }
     }
 
+    /// Tells whether left and right are exchanged.
+    pub(super) fn reverses(&self) -> bool {
+        self.matrix[0][0] < T::zero()
+    }
+
     pub(crate) fn point(&self, CurvePoint { x, y, dx, dy }: CurvePoint<T>) -> CurvePoint<T> {
         let ([x, y], [dx, dy]) = (self.apply([x, y]), self.direction([dx, dy]));
         CurvePoint { x, y, dx, dy }

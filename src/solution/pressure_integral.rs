@@ -102,10 +102,9 @@ impl<'p, T: Real> Integrals<T, Pressure<'p, T>> {
     pub fn new(solved: Solved<'p, T>) -> Result<Self, ContactError<T>> {
         let contacts = solved.contacts();
         let one = |(i, &on): (usize, &Interval<T>)| {
-            let gap = solved.gap;
+            let (gap, free, kept) = (solved.gap, solved.free(i), OnceLock::new());
             let beyond = [gap.breakpoint_before(on.left), gap.breakpoint_after(on.right)];
-            let breakpoints = gap.breakpoints(on).collect();
-            One { on, breakpoints, beyond, free: solved.free(i), kept: OnceLock::new() }
+            One { on, breakpoints: gap.breakpoints(on).collect(), beyond, free, kept }
         };
         let contacts = Ones::of(contacts, one);
         Ok(Self { density: Pressure::new(solved)?, load: solved.found.load, contacts })
@@ -219,26 +218,17 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         vanish.then_some(q)
     }
 
-    /// Returns a count of coefficients by integrals, as many at once as serve: each integral takes
-    /// pressures of its own.
     fn all_coefficients(&self, contact: usize, count: usize) -> Fallible<T, Vec<T>> {
-        match count {
-            0..=32 => self.in_blocks::<32>(contact, count),
-            33..=128 => self.in_blocks::<128>(contact, count),
-            _ => self.in_blocks::<512>(contact, count),
-        }
-    }
-
-    /// Returns a count of coefficients by integrals of N.
-    fn in_blocks<const N: usize>(&self, contact: usize, count: usize) -> Fallible<T, Vec<T>> {
+        /// Coefficients that are integrated together, with the same pressures.
+        const COEFFICIENTS_TOGETHER: usize = 128;
         let on = self.contacts[contact].on;
-        let (one, mut q) = (T::one(), Vec::with_capacity(count + N));
+        let (one, mut q) = (T::one(), Vec::with_capacity(count + COEFFICIENTS_TOGETHER));
         while q.len() < count {
             let first = q.len();
             let block = self.over_one(contact, on.centre(), |distance, strength| {
                 let z = -distance / on.half_width();
-                let (mut pair, mut block) = ([one, z], [T::zero(); N]);
-                for k in 0..first + N {
+                let (mut pair, mut block) = ([one, z], [T::zero(); COEFFICIENTS_TOGETHER]);
+                for k in 0..first + COEFFICIENTS_TOGETHER {
                     if k >= first {
                         block[k - first] = strength * if k == 0 { one } else { pair[0] + pair[0] };
                     }

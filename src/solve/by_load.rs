@@ -404,9 +404,9 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
             ContactError::Solve(NoEquilibrium { .. } | NoFirstContact { .. } | LiftsOff { .. }) => {
                 // So small a load is not held by a corner, does not close a hollow, or leaves no
                 // height to tell; unless a smaller one has been borne.
-                let is_more = |known: Point<T>| known.value > T::zero() && known.load <= load;
-                let is_too_large = [self.low, self.high].into_iter().flatten().any(is_more);
-                unknown(load, if is_too_large { infinite } else { T::zero() })
+                let is_borne = |at: &Point<T>| at.value > T::zero() && at.load <= load;
+                let is_more = self.low.iter().chain(&self.high).any(is_borne);
+                unknown(load, if is_more { infinite } else { T::zero() })
             }
             _ => return Err(error.clone()),
         }))

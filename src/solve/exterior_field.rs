@@ -36,6 +36,8 @@ pub(crate) struct ExteriorField<T> {
     free: Ends<bool>,
     /// Uncertainty of the potential at the limits, due to the coefficients left out.
     pub doubt: T,
+    /// Flag: the slope of the gap jumps inside, so that the potentials are off by about as much.
+    pub has_corner: bool,
 }
 
 impl<T: Real> ExteriorField<T> {
@@ -49,7 +51,8 @@ impl<T: Real> ExteriorField<T> {
         let bounded: [T; POINTS] =
             std::array::from_fn(|i| pressures[i] * on.chebyshev_weight(x[i]));
         let q = Table::of(POINTS).coefficients(&bounded);
-        Self { on, x, pressures, q, finer: Vec::new(), free, doubt: tail(&q, free) }
+        let (finer, doubt) = (Vec::new(), tail(&q, free));
+        Self { on, x, pressures, q, finer, free, doubt, has_corner: false }
     }
 
     /// Computes the coefficients from the pressures at more [places](Self::place).
@@ -112,7 +115,7 @@ impl<T: Real> ExteriorField<T> {
 
     /// Returns the load of the contact.
     pub fn load(&self) -> T {
-        T::pi() * self.q[0]
+        T::pi() * self.coefficients()[0]
     }
 }
 
@@ -171,9 +174,13 @@ impl<T: Real> ExteriorFields<T> {
         self.total(&self.far[1], x, ExteriorField::slope)
     }
 
-    /// Returns the uncertainty of the rise of the potential across a region outside the contacts.
-    pub fn doubt_in(&self, room: Interval<T>) -> T {
-        self.each.iter().fold(T::zero(), |sum, field| sum + field.doubt_in(room))
+    /// Returns the uncertainty of the rise of the potential across a region outside the contacts,
+    /// by all of them and by those with corners.
+    pub fn doubt_in(&self, room: Interval<T>) -> [T; 2] {
+        self.each.iter().fold([T::zero(); 2], |[all, corners], field| {
+            let doubt = field.doubt_in(room);
+            [all + doubt, if field.has_corner { corners + doubt } else { corners }]
+        })
     }
 
     fn total(&self, far: &FarField<T>, x: T, of: impl Fn(&ExteriorField<T>, T) -> T) -> T {

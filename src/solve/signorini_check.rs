@@ -7,6 +7,7 @@
 //! where their heights are known.
 
 mod beside;
+mod dips;
 mod outside;
 mod passed;
 
@@ -16,6 +17,7 @@ use crate::quadrature::panels::PanelIntegrator;
 use crate::quadrature::{Engine, Integrator, LoadCase};
 use crate::solution::{Closeness, ContactState, Inside, Tensions, least_width, parting};
 use crate::{Ends, Extremum, Fallible, Interval, Real, Side};
+pub(super) use dips::{Dip, Overlaps};
 pub(super) use passed::{Passed, Under};
 
 /// Largest number of places with tension whose uncertainty is estimated.
@@ -64,28 +66,6 @@ impl<T: Real> TensionSpans<T> {
     }
 }
 
-/// Dips of the loaded gap in which bodies overlap.
-#[derive(Clone)]
-pub(super) struct Overlaps<T> {
-    /// Lowest place of each dip, with the gap there, and the share of the fall in the change of its
-    /// slope, `[x, gap, share]`, by rising x.
-    pub dips: Vec<[T; 3]>,
-    /// Spans outside the contacts that a heavier load has closed.
-    pub closed_before: Vec<Interval<T>>,
-}
-
-impl<T: Real> Overlaps<T> {
-    pub fn new() -> Self {
-        Self { dips: Vec::new(), closed_before: Vec::new() }
-    }
-
-    /// Returns the deepest dip.
-    pub fn worst(&self) -> Option<[T; 3]> {
-        let dips = self.dips.iter().copied();
-        dips.reduce(|worst, dip| if dip[1] < worst[1] { dip } else { worst })
-    }
-}
-
 impl<T: Real> SignoriniCheck<'_, T> {
     /// Tells whether a span is in a contact under a lighter load.
     fn is_pressed(&self, [from, to]: [T; 2]) -> bool {
@@ -106,6 +86,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             self.pressures(&x, &mut pressures)?;
             let free = self.panels.free_of(i, self.found.free);
             let mut field = ExteriorField::new(on, free, x, pressures);
+            let jumps = |breakpoint: T| !self.gap.jump(breakpoint)[0].is_zero();
+            field.has_corner = self.gap.breakpoints(on).any(jumps);
             self.doubt_at_corners(&mut field)?;
             fields.each.push(field);
         }
@@ -146,20 +128,19 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok(is_finer)
     }
 
-    /// Adds to the uncertainty of a series what a corner just inside a limit does: the pressure
-    /// falls there from that of a held limit, like a logarithm.
+    /// Adds to the uncertainty of a series what corners do: at those inside the pressure is like a
+    /// logarithm, and just inside a limit it falls from that of a held one.
     fn doubt_at_corners(&self, field: &mut ExteriorField<T>) -> Fallible<T, ()> {
         let (on, count) = (field.on, T::count(field.coefficients().len()));
         // Place i lies (2 i + 1)² times as far from the limit as the first.
         let fourth = T::of(49.0 / 8.0) * (T::pi() / count).powi(2) * on.half_width();
         let corners = [self.gap.breakpoint_after(on.left), self.gap.breakpoint_before(on.right)];
-        let (mut is_beside, mut unseen) = (false, T::zero());
+        let mut unseen = T::zero();
         for (corner, side) in corners.into_iter().zip(Side::BOTH) {
             let away = |corner: T| (corner - on[side]).abs();
             let is_near = |&corner: &T| away(corner) <= T::of(BESIDE) * on.half_width();
             let bulges = |&corner: &T| self.gap.jump(corner)[0] > T::zero();
             let Some(corner) = corner.filter(is_near).filter(bulges) else { continue };
-            is_beside = true;
             if away(corner) < fourth {
                 let mut pressure = [T::zero()];
                 self.pressures(&[corner + (corner - on[side])], &mut pressure)?;
@@ -167,7 +148,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 unseen += T::of(16.0) * away(corner) * pressure[0].abs();
             }
         }
-        if is_beside {
+        if field.has_corner {
             // Aliased, coefficients that fall as 1/n² add a logarithm to the potential.
             field.doubt *= T::of(0.75) * count.ln();
         }

@@ -337,24 +337,3 @@ fn random_polygons_touch_under_any_load() {
     }
     assert!(refused <= scenes * 12 / 2000, "{refused} refused");
 }
-
-/// Between contacts that a load has all but merged, at a hollow corner, the gap is known to
-/// rounding, as are the pressures beside it.
-#[test]
-fn a_gap_about_to_close_takes_no_more_integrals() {
-    let third = 1.0 / 3.0;
-    let lower = [[-1.0, -0.3], [-0.6, -0.03], [-0.2, -0.07], [0.2, -0.06], [0.6, -0.09]];
-    let upper = [[-1.0, 0.22], [-2.0 * third, 0.08], [-third, 0.08], [0.0, 0.03], [third, 0.06]];
-    let lower = polygon(&[&lower[..], &[[1.0, -0.29]]].concat());
-    let upper = polygon(&[&upper[..], &[[2.0 * third, 0.08], [1.0, 0.25]]].concat());
-    let contact = Contact::new(&*lower, &*upper).unwrap().contact_modulus(0.5);
-    for load in [0.1, 0.11, 0.112] {
-        let solution = contact.solve(Control::Load(load)).unwrap();
-        let gap = solution.intervals()[2].right;
-        let width = solution.intervals()[3].left - gap;
-        assert!(width > 0.0 && width < 1e-9 && (gap - third).abs() < width, "{load}: {width}");
-        // It gives up after 20 000 panels.
-        let open = solution.gap_at(third).unwrap();
-        assert!(open.abs() < 1e-12, "{load}: {open}");
-    }
-}

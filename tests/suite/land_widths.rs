@@ -97,8 +97,8 @@ fn random(seed: u64) -> (Profile, f64, Shares) {
     (lands(&ends, &heights, wall, depth), 0.5 * (ends[number - 1][1] + 1.0), shares)
 }
 
-/// Random lands, by half-widths at random, by that of all lands and by those of a load. (The seeds by
-/// number were refused once.)
+/// Random lands, by half-widths at random, by that of all lands and by those of a load. (The seeds
+/// by number were refused once.)
 #[test]
 fn of_random_lands() {
     let count = std::env::var("SCENES").ok().and_then(|count| count.parse().ok()).unwrap_or(10);

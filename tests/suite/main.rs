@@ -24,6 +24,7 @@ mod accuracy;
 mod apart;
 mod approach;
 mod bad_input;
+mod births;
 mod certificate;
 mod certificate_edges;
 mod certificate_several;

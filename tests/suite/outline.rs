@@ -64,7 +64,7 @@ fn a_wall_turned_beyond_the_upright_is_named() {
                 }
                 _ => false,
             };
-            assert_eq!(turned.clone().is_err_and(expected), overhangs, "{turned:?}");
+            assert_eq!(turned.is_err_and(expected), overhangs, "{turned:?}");
             assert!(overhangs || turned.is_ok(), "{turned:?}");
         }
     }

@@ -167,7 +167,7 @@ def _foundation(given: Foundation) -> tuple[Any, Any]:
     """Returns material and thickness of the layers of a body, and their base."""
     layers, base = _layers(given)
     sheets = [(_elastic(layer.material), layer.thickness) for layer in layers]
-    return sheets, base if sheets and isinstance(base, str) else _elastic(base)
+    return sheets, base if sheets and isinstance(base, str) else _elastic(cast("Sequence[float]", base))
 
 
 def _both(materials: Sequence[Any]) -> Sequence[Any]:

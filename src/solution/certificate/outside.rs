@@ -162,7 +162,8 @@ impl<'o, T: Real> OutsideOf<'o, T> {
             self.part_again();
             return Ok(());
         }
-        if self.pending != T::zero() {
+        // What is pending may be zero: on a level flank.
+        if self.y < from {
             let drawn = self.drawn(self.y, from);
             self.height += self.pending - drawn;
             self.open |= self.height > self.of.allowed;

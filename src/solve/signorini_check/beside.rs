@@ -19,8 +19,10 @@ pub(super) struct Beside<T> {
     pub height: T,
     pub hidden: T,
     pub taken: T,
-    /// Uncertainty of the potentials in the region, as a height.
+    /// Uncertainty of the potentials in the region, as a height: a bound, and the part by contacts
+    /// with corners, by which the potentials are indeed off.
     pub doubt: T,
+    pub at_corners: T,
 }
 
 impl<T: Real> Beside<T> {

@@ -1,12 +1,12 @@
 //! Overlap of the loaded bodies outside their contacts, where their heights are known and at their
 //! corners.
 
+use super::SignoriniCheck;
 use super::beside::{Beside, Verdict};
-use super::{Overlaps, SignoriniCheck};
+use super::dips::{Dip, Overlaps};
 use crate::gap::{Cost, LowPoint, MAX_NEAR_UNCERTAINTY, Sampler, Survey, crossing};
 use crate::numerics::ascending;
 use crate::quadrature::panels::Rises;
-use crate::solution::Solved;
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{Ends, Fallible, Interval, Real, Side};
 
@@ -61,7 +61,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Returns the slope of the displacement outside the contacts.
-    fn rate(&self, fields: &ExteriorFields<T>, x: T) -> T {
+    pub(super) fn rate(&self, fields: &ExteriorFields<T>, x: T) -> T {
         fields.slope(x) / self.kappa
     }
 
@@ -140,32 +140,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
             dips.extend(self.overlap_by_pressures(fields, x, cost));
         }
         Ok(())
-    }
-
-    /// Returns the share of the fall towards a place in the change of the loaded slope there: from
-    /// zero to one at a corner, else no number or infinite.
-    fn lean(&self, fields: &ExteriorFields<T>, x: T, sampler: &mut Sampler<T>) -> Fallible<T, T> {
-        let [before, after] = Side::BOTH.map(|side| sampler.slope_from(self.gap, x, side));
-        let before = before?;
-        Ok((self.rate(fields, x) - before) / (after? - before))
-    }
-
-    /// Returns a place with the gap there by the pressures themselves, if it is known and the
-    /// bodies overlap. (At an upright end a curve tells no height.)
-    fn overlap_by_pressures(
-        &self,
-        fields: &ExteriorFields<T>,
-        x: T,
-        cost: &mut Cost,
-    ) -> Option<[T; 3]> {
-        let &Self { gap, engine: integrator, kappa, found, .. } = self;
-        let mut sampler = Sampler::default();
-        sampler.height(gap, x).ok()?;
-        let allowed = self.allowed(sampler.highest, T::zero());
-        let open = Solved { gap, integrator, kappa, found }.gap_at(x).ok()?;
-        // Here, there, and at the limit.
-        cost.heights += 3 * sampler.cost.evaluations;
-        (open < -allowed).then_some([x, open, self.lean(fields, x, &mut sampler).ok()?])
     }
 
     /// Compares the rise of the gap over one contact by its slopes and by the heights of the
@@ -249,7 +223,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         fields: &ExteriorFields<T>,
         look: &Survey<T>,
         heights: impl Iterator<Item = LowPoint<T>>,
-        (dips, open, hidden): (&mut Vec<[T; 3]>, &mut Vec<[T; 2]>, &mut Vec<T>),
+        (dips, open, hidden): (&mut Vec<Dip<T>>, &mut Vec<[T; 2]>, &mut Vec<T>),
         cost: &mut Cost,
     ) -> Fallible<T, ()> {
         let (contacts, hull) = (self.contacts, self.found.interval);
@@ -275,7 +249,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let ends = between.unwrap_or([[x, height, T::zero()]; 2]);
             let least = height.min(ends[0][1]).min(ends[1][1]);
             let most = load * (ends[1][0] - hull.left).max(hull.right - ends[0][0]).ln();
-            if least - doubt - from.height >= (most - from.taken) / self.kappa + from.hidden {
+            let taken = (most - from.taken) / self.kappa + from.hidden + from.at_corners;
+            if least - doubt - from.height >= taken {
                 is_parted |= between.is_none();
                 continue;
             }
@@ -290,7 +265,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 if let Some(found) = found {
                     match dips.last_mut().filter(|_| !is_parted) {
                         None => dips.push(found),
-                        Some(dip) if found[1] < dip[1] => *dip = found,
+                        Some(dip) if found.gap < dip.gap => *dip = found,
                         Some(_) => {}
                     }
                     is_parted = false;
@@ -418,13 +393,13 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let taken = fields.potential(edge);
         // On both sides of a region the gap is closed: what the potentials leave of it is their
         // error.
-        let left_out = fields.doubt_in(room) / self.kappa;
+        let [left_out, at_corners] = fields.doubt_in(room).map(|doubt| doubt / self.kappa);
         let several = self.panels.several().filter(|_| is_limit == [true; 2]);
         let doubt = several.map_or(left_out, |several| {
             let rise = several.height(next, Side::Left) - height;
             left_out.max((rise - (fields.potential(room.right) - taken) / self.kappa).abs())
         });
-        Beside { next, edge, room, near, blind, height, hidden, taken, doubt }
+        Beside { next, edge, room, near, blind, height, hidden, taken, doubt, at_corners }
     }
 
     /// Judges an unloaded height, given its place and its uncertainty.
@@ -433,7 +408,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let gap = height - from.height - (fields.potential(x) - from.taken) / self.kappa;
         // The series of the pressures leave this uncertain.
         let doubt = from.doubt;
-        if gap - hidden - doubt >= -allowed {
+        if gap - hidden - from.at_corners >= -allowed {
             Verdict::Apart
         } else if gap - hidden >= -(allowed + doubt) {
             Verdict::Unresolved
@@ -445,7 +420,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Returns the overlap that counts as rounding.
-    fn allowed(&self, height: T, at_edge: T) -> T {
+    pub(super) fn allowed(&self, height: T, at_edge: T) -> T {
         self.found.zero_tolerance() * (height - at_edge).abs()
             + T::of(64.0) * T::epsilon() * (height.abs() + at_edge.abs())
     }
@@ -458,7 +433,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         from: &Beside<T>,
         x: T,
         cost: &mut Cost,
-    ) -> Fallible<T, (Option<[T; 3]>, bool)> {
+    ) -> Fallible<T, (Option<Dip<T>>, bool)> {
         let mut sampler = Sampler::default();
         let height = sampler.height(self.gap, x)?;
         let at_edge = match self.panels.several() {
@@ -481,9 +456,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         if !is_sound {
             allowed += T::of(8.0) * (rise - due).abs() + sampler.noise_of_height(self.gap, x)?;
         }
-        let share = self.lean(fields, x, &mut sampler)?;
+        let dip = self.dip(fields, [x, gap], &mut sampler)?;
         cost.heights += sampler.cost.evaluations;
         let is_open = gap >= -(allowed + from.doubt);
-        Ok(((!is_open).then_some([x, gap, share]), is_open && gap - from.doubt < -allowed))
+        Ok((dip.filter(|_| !is_open), is_open && gap - from.at_corners < -allowed))
     }
 }

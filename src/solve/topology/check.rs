@@ -117,7 +117,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         if let Cow::Owned(own) = panels {
             self.work.cost.heights += own.cost().evaluations;
         }
-        Ok(overlap.map(|[x, gap, _]| found.overlap(x, gap).into()))
+        Ok(overlap.map(|dip| found.overlap(dip.x, dip.gap).into()))
     }
 
     /// Looks for narrow features next to the contacts found.

@@ -16,6 +16,7 @@
 use super::super::active_set::{Coarse, NotFound, Scene, active_set};
 use super::super::fault::Fault;
 use super::super::newton::several::put;
+use super::super::signorini_check::Dip;
 use super::{Conditions, Contact, FIRST_CELLS, Search, Work, Workspace, asked_by};
 use crate::solution::{Outcome, Start};
 use crate::{ContactError, Edge, Ends, Fallible, Interval, Real, Side, SolveError};
@@ -201,13 +202,11 @@ impl<T: Real> Search<'_, '_, '_, T> {
         }
         let half = T::of(0.5);
         let aside = T::of(SEED_WIDTH) * (ends.right - ends.left);
-        for &[x, _, share] in &overlaps.dips {
+        for &Dip { x, lean, width, .. } in &overlaps.dips {
             let at = on.partition_point(|on| on.right < x);
             let left = if at == 0 { ends.left } else { on[at - 1].right };
             let right = on.get(at).map_or(ends.right, |next| next.left);
-            // At a corner the contact has the place of a wedge's, mostly on its flatter side.
-            let is_corner = share > T::zero() && share < T::one();
-            let lean = if is_corner { (T::pi() * share).cos() } else { T::zero() };
+            let aside = aside.min(width);
             let seed = Interval {
                 left: (x - aside * (T::one() + lean)).max(half * (x + left)),
                 right: (x + aside * (T::one() - lean)).min(half * (x + right)),

@@ -1,0 +1,95 @@
+//! Contacts about to be born at a corner, or to merge at a hollow one.
+#![allow(missing_docs)]
+
+use crate::common::on_flat;
+use crate::corners::polygon;
+use linecontact::{Contact, Control};
+
+/// Between contacts that a load has all but merged, at a hollow corner, the gap is known to
+/// rounding, as are the pressures beside it.
+#[test]
+fn a_gap_about_to_close_takes_no_more_integrals() {
+    let third = 1.0 / 3.0;
+    let lower = [[-1.0, -0.3], [-0.6, -0.03], [-0.2, -0.07], [0.2, -0.06], [0.6, -0.09]];
+    let upper = [[-1.0, 0.22], [-2.0 * third, 0.08], [-third, 0.08], [0.0, 0.03], [third, 0.06]];
+    let lower = polygon(&[&lower[..], &[[1.0, -0.29]]].concat());
+    let upper = polygon(&[&upper[..], &[[2.0 * third, 0.08], [1.0, 0.25]]].concat());
+    let contact = Contact::new(&*lower, &*upper).unwrap().contact_modulus(0.5);
+    for load in [0.1, 0.11, 0.112] {
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        let gap = solution.intervals()[2].right;
+        let width = solution.intervals()[3].left - gap;
+        assert!(width > 0.0 && width < 1e-9 && (gap - third).abs() < width, "{load}: {width}");
+        // It gives up after 20 000 panels.
+        let open = solution.gap_at(third).unwrap();
+        assert!(open.abs() < 1e-12, "{load}: {open}");
+    }
+}
+
+/// A contact is born at a corner 2 from a wedge under a load that puts the gap there to zero: under
+/// no more, and no less.
+#[test]
+fn a_contact_is_born_where_the_gap_closes() {
+    let load = 1e-3;
+    for (m, low) in [(0.1, 6.5387e-3), (0.01, 4.2364e-3)] {
+        let points = [[-5.0, 5.0 * m], [0.0, 0.0], [1.0, m], [2.0, low], [5.0, low + 3.0 * m]];
+        let contact = on_flat(polygon(&points));
+        let mut counts = Vec::new();
+        for i in -20..=20 {
+            let solution =
+                contact.solve(Control::Load(load * (1.0 + 1e-4 * f64::from(i)))).unwrap();
+            counts.push(solution.intervals().len());
+            assert!(solution.certify().unwrap().is_proved(), "{i}: {solution}");
+            let open = solution.gap_at(2.0).unwrap_or(0.0);
+            assert!(open >= -1e-10 * load, "{i}: {open}");
+        }
+        counts.dedup();
+        assert_eq!(counts, [1, 2], "{load}");
+    }
+}
+
+/// The contacts do not depend on the unit of length: the left one bears 3 % and more.
+#[test]
+fn a_pad_has_the_same_contacts_in_any_unit() {
+    let mut last = None;
+    for unit in [3e-7, 0.3, 300.0, 3e5, 3e11] {
+        let points = [[-4.9, 0.12], [-0.9, 0.0], [0.0, 0.0], [0.85, -0.0017], [4.85, 0.1183]];
+        let contact = on_flat(polygon(&points.map(|point| point.map(|x| x * unit))));
+        let shares = [4.7e-4, 5.2e-4, 5.5e-4];
+        let found = shares.map(|share| contact.solve(Control::Load(share * unit)).unwrap());
+        let centres = found.map(|found| found.centre_of_pressure().unwrap() / unit);
+        let before = *last.get_or_insert(centres);
+        let off = |i: usize| (centres[i] - before[i]).abs();
+        assert!((0..3).all(|i| off(i) < 1e-9), "{unit}: {centres:?} {before:?}");
+    }
+}
+
+/// A level land beside a ramp: the certificate follows the gap over it, too.
+#[test]
+fn a_gap_beside_a_level_land_is_certified() {
+    for load in [0.01, 0.02, 0.03] {
+        let points = [[0.0, 1e-2], [1e-6, 0.0], [1.0, 0.02], [1.5, 0.02], [4.5, 0.32]];
+        let contact = on_flat(polygon(&points));
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        assert!(solution.intervals().len() == 2 && solution.gap_at(1.0).unwrap() > 0.0);
+        assert!(solution.certify().unwrap().is_proved(), "{load}: {solution}");
+    }
+}
+
+/// A contact at a corner is found down to the last bit of the height at which it is born, or x is
+/// too coarse to tell it.
+#[test]
+fn a_contact_is_found_however_narrow() {
+    let (m, load) = (4.5e-4, 5.6e-8);
+    let (mut low, mut high) = (10.74, 10.75);
+    for _ in 0..50 {
+        let height = 0.5 * (low + high);
+        let points = [[-5.0, 5.0 * m], [0.0, 0.0], [0.835, m * 0.835], [1.67, height * load]];
+        let end = [[5.0, height * load + m * 3.33]];
+        let contact = on_flat(polygon(&[&points[..], &end].concat()));
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        let is_born = solution.intervals().len() == 2;
+        *(if is_born { &mut low } else { &mut high }) = height;
+    }
+    assert!((low - 10.746_039_27).abs() < 1e-8, "{low}");
+}
