@@ -93,3 +93,21 @@ fn a_contact_is_found_however_narrow() {
     }
     assert!((low - 10.746_039_27).abs() < 1e-8, "{low}");
 }
+
+/// A land beside a wedge touches by one corner first, and bears less than the wedge: its corner is
+/// sharp to it.
+#[test]
+fn a_land_that_bears_little_is_held_at_its_corner() {
+    for load in [7.5e-5, 1e-5] {
+        let mut counts = Vec::new();
+        for i in 0..60 {
+            let d = (3.0 + 11.0 * f64::from(i) / 60.0) * load;
+            let wedge = [[-5.0, 0.015], [0.0, 0.0], [1.0, 0.0018]];
+            let land = [[1.4, d], [1.6, d], [3.6, d + 0.006]];
+            let contact = on_flat(polygon(&[wedge, land].concat()));
+            counts.push(contact.solve(Control::Load(load)).unwrap().intervals().len());
+        }
+        counts.dedup();
+        assert_eq!(counts, [2, 1], "{load}");
+    }
+}

@@ -116,14 +116,17 @@ impl<T: Real> Search<'_, '_, '_, T> {
             return Ok(true);
         }
         let sum = |sum: T, on: &Interval<T>| sum + on.half_width();
-        let mean = conditions.load() / conditions.kappa / on.iter().fold(T::zero(), sum);
+        let all = on.iter().fold(T::zero(), sum);
+        let (mean, width) = (conditions.load() / conditions.kappa / all, all / T::count(on.len()));
         for i in 0..on.len() {
             for side in Side::BOTH {
                 // The load is sought under which this limit is at the end.
                 if self.end == Some(side) && i == outermost(side) {
                     continue;
                 }
-                if let Some(z) = self.corner_next_to(i, side, mean)? {
+                // A contact narrower than the others, as one just born, bears less.
+                let share = self.work.workspace.newton.on[i].half_width() / width;
+                if let Some(z) = self.corner_next_to(i, side, mean * share.min(T::one()))? {
                     self.hold_at(i, side, z);
                 }
             }
