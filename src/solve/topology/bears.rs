@@ -70,8 +70,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let is_blind = self.contact.single_interval && self.turns();
         let lifts_off = matches!(error, ContactError::Solve(SolveError::LiftsOff { .. }));
         let is_nowhere = error.may_be_several() && !lifts_off;
-        let is_open = self.runs_out.is_none() && is_lost(&error);
-        let flat = if is_open { self.end_of_flat() } else { None };
+        let flat = if is_lost(&error) { self.end_of_flat() } else { None };
         let may_run_out = self.runs_out.is_some() || is_blind && is_nowhere || flat.is_some();
         if !may_run_out {
             return Err(error);
