@@ -111,7 +111,8 @@ pub enum InputError<T: Real> {
     /// A body is not the same at both ends of the period over which it is described.
     #[error(
         "the {body} body does not repeat with the period: {what} is {} at its left end and {} at its right end; \
-         describe it over exactly one period, from a place that is no corner; of points set Fit::period",
+         describe it over exactly one period, with the same height and slope at both ends, so from a place that is no \
+         corner; of points set Fit::period",
         apart(ends[0], &[ends[1]]), apart(ends[1], &[ends[0]])
     )]
     NotPeriodic {

@@ -21,9 +21,9 @@ impl<T: Real> Solution<'_, T> {
     /// Returns the distance between the loaded bodies at `x` outside the contact, measured along y:
     /// a length, zero at both edges. Negative where the bodies would overlap.
     ///
-    /// Each place takes an integral of the pressure: about 0.1 ms, some milliseconds for bodies
-    /// with corners. Next to an edge the gap is a small difference: its absolute error is the
-    /// rounding of the heights Y of the bodies, and of `F/κ`.
+    /// Each place takes an integral of the pressure: about 0.1 ms, up to some tens of milliseconds
+    /// for bodies with corners. Next to an edge the gap is a small difference: its absolute error
+    /// is the rounding of the heights Y of the bodies, and of `F/κ`.
     ///
     /// # Errors
     /// [`EvaluationError::InvalidPosition`] strictly inside the contact;

@@ -149,7 +149,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
         }
         if field.has_corner {
-            // Aliased, coefficients that fall as 1/n² add a logarithm to the potential.
+            // Aliased, coefficients that fall no faster than 1/n² add a logarithm to the potential.
             field.doubt *= T::of(0.75) * count.ln();
         }
         field.doubt += unseen;

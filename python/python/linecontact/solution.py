@@ -765,8 +765,8 @@ class Solution:
     def gap(self, x: float | Numbers) -> float | FloatArray:
         """Returns the gap between the loaded bodies along y: a length, zero in the contacts.
 
-        Each place takes an integral of the pressure: about 0.1 ms, some milliseconds for bodies
-        with corners.
+        Each place takes an integral of the pressure: about 0.1 ms, up to some tens of milliseconds
+        for bodies with corners.
 
         Examples
         --------

@@ -456,9 +456,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         if !is_sound {
             allowed += T::of(8.0) * (rise - due).abs() + sampler.noise_of_height(self.gap, x)?;
         }
-        let dip = self.dip(fields, [x, gap], &mut sampler)?;
-        cost.heights += sampler.cost.evaluations;
         let is_open = gap >= -(allowed + from.doubt);
-        Ok((dip.filter(|_| !is_open), is_open && gap - from.at_corners < -allowed))
+        let dip = if is_open { None } else { self.dip(fields, [x, gap], &mut sampler)? };
+        cost.heights += sampler.cost.evaluations;
+        Ok((dip, is_open && gap - from.at_corners < -allowed))
     }
 }

@@ -1,11 +1,11 @@
 //! Load that the bodies bear in any number of contacts.
 //!
 //! The contacts grow with the load, until a limit reaches an end of the bodies, or the loaded gap
-//! closes there first. The first case is a condition of Newton's method, with the load as one more
-//! unknown. For the second, the load is raised from one that the bodies bear: the gap at an end
-//! shrinks at the rate g/κ, with Green's function g of the region outside the contacts, which
-//! decreases as they grow. So the gap is a convex function of the load, and no secant through two
-//! loads passes the load under which it closes.
+//! closes there first. The load is raised from one that the bodies bear: the gap at an end shrinks
+//! at the rate g/κ, with Green's function g of the region outside the contacts, which decreases as
+//! they grow. So the gap is a convex function of the load, and no secant through two loads passes
+//! the load under which it closes. Where it shrinks fast, the first case is tried: a condition of
+//! Newton's method, with the load as one more unknown.
 
 use super::super::active_set::FIRST_CELLS;
 use super::super::capacity::Capacity;
