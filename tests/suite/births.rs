@@ -3,6 +3,7 @@
 
 use crate::common::on_flat;
 use crate::corners::polygon;
+use linecontact::profile::Outline;
 use linecontact::{Contact, Control};
 
 /// Between contacts that a load has all but merged, at a hollow corner, the gap is known to
@@ -109,5 +110,35 @@ fn a_land_that_bears_little_is_held_at_its_corner() {
         }
         counts.dedup();
         assert_eq!(counts, [2, 1], "{load}");
+    }
+}
+
+/// Gap that a hollow corner leaves at the end of a wide contact.
+#[test]
+fn a_contact_behind_a_hollow_corner() {
+    let right = Outline::from([0.0; 2])
+        .arc(1669.2388696217415, 0.12147401992094332)
+        .corner(0.0)
+        .arc(404.5878249504983, 0.35173157265730937)
+        .corner(0.008163575460616936)
+        .arc(27.180985061400907, 0.5732076056981326)
+        .corner(0.003707041656956522)
+        .line(0.3700477608646358)
+        .corner(0.003403023125338611)
+        .arc(-70.26227202667825, 0.967933050449561)
+        .corner(0.03846276502308547)
+        .line(4.0);
+    let left = Outline::from([0.0; 2])
+        .arc(966.7186145082451, 0.7664456245880891)
+        .corner(0.006684120463740123)
+        .line(0.0777118743782497)
+        .corner(0.034645896295178856)
+        .line(4.0);
+    let contact = on_flat(Box::new(right.left(left).build().unwrap()));
+    for share in [0.99, 1.0, 1.001] {
+        let load = 0.01762677383567004 * share;
+        let solution = contact.solve(Control::Load(load)).unwrap();
+        println!("{solution}");
+        println!("{:?}", solution.certify());
     }
 }

@@ -15,6 +15,9 @@ pub(super) struct Beside<T> {
     pub near: [T; 2],
     /// Distances from both within which nothing is known.
     pub blind: [T; 2],
+    /// Least and largest slope of the displacement, by what is known at the limits: a potential is
+    /// concave.
+    pub rates: [T; 2],
     /// Height of the gap at this limit, its uncertainty, and the potential there.
     pub height: T,
     pub hidden: T,
@@ -29,6 +32,11 @@ impl<T: Real> Beside<T> {
     /// Tells whether a place is closer to a corner that holds a limit than the limit is known.
     pub fn is_blind(&self, x: T) -> bool {
         x - self.room.left < self.blind[0] || self.room.right - x < self.blind[1]
+    }
+
+    /// Returns the slope of the displacement at a place, within what is known of it.
+    pub fn bounded(&self, rate: T) -> T {
+        rate.max(self.rates[0]).min(self.rates[1])
     }
 
     /// Tells whether a place is so close to a limit that the pressure inside decides about the gap.

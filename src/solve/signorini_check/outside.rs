@@ -38,6 +38,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         &self,
         fields: &ExteriorFields<T>,
         look: &Survey<T>,
+        from: &Beside<T>,
         [mut left, mut right]: [T; 2],
     ) -> T {
         let half = T::of(0.5);
@@ -45,7 +46,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let mut share = half;
         for step in 1..=MAX_HALVES + MAX_CHORDS {
             let x = left + share * (right - left);
-            let slope = look.slope(self.gap, x) + self.gap.tilt() - self.rate(fields, x);
+            let slope = look.slope(self.gap, x) + self.gap.tilt() - from.bounded(self.rate(fields, x));
             if slope > T::zero() {
                 (right, rises) = (x, Some(slope));
             } else {
@@ -243,7 +244,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 continue;
             }
             let known = beside.filter(|beside| beside.next == next);
-            let from = *beside.insert(known.unwrap_or_else(|| self.beside(fields, look, next)));
+            let known = known.map_or_else(|| self.beside(fields, look, next), Ok)?;
+            let from = *beside.insert(known);
             // A span is no lower than its ends, or than where its tangents cross; no part of the
             // load acts from further away than the far end of the contacts.
             let ends = between.unwrap_or([[x, height, T::zero()]; 2]);
@@ -298,14 +300,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             return Some((x, verdict));
         };
-        let verdict = judged(self.floor(fields, [x, height], ends));
+        let verdict = judged(self.floor(fields, from, [x, height], ends));
         if !matches!(verdict, Verdict::Overlap | Verdict::Hidden) {
             return Some((x, verdict));
         }
         // The height so far was a bound, or interpolated.
         let [left, right] = ends.map(|end| end[0]);
         let on = [left.max(from.room.left), right.min(from.room.right)];
-        let x = self.lowest_between(fields, look, on);
+        let x = self.lowest_between(fields, look, from, on);
         let verdict = if !from.is_near(x) {
             let height = self.height_at(look, x);
             self.verdict(fields, from, [x, height, hidden])
@@ -323,10 +325,17 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// Returns a height at a place of a span that represents the lowest loaded gap in it. A
     /// potential is concave, and rises to both sides of the place no more than its tangent; the
     /// loaded gap is as low as the crossing of its tangents at both ends.
-    fn floor(&self, fields: &ExteriorFields<T>, [x, height]: [T; 2], ends: [[T; 3]; 2]) -> T {
-        let rate = self.rate(fields, x);
+    fn floor(
+        &self,
+        fields: &ExteriorFields<T>,
+        from: &Beside<T>,
+        [x, height]: [T; 2],
+        ends: [[T; 3]; 2],
+    ) -> T {
+        let rate_at = |x| from.bounded(self.rate(fields, x));
+        let rate = rate_at(x);
         let loaded = |[end, height, slope]: [T; 3]| {
-            [end, height + rate * (x - end), slope - self.rate(fields, end)]
+            [end, height + rate * (x - end), slope - rate_at(end)]
         };
         let [[left, before, falls], [right, after, rises]] = ends.map(loaded);
         let chord = (after - before) / (right - left);
@@ -365,7 +374,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Describes the region next to a contact: before one of them, or beyond the last.
-    fn beside(&self, fields: &ExteriorFields<T>, look: &Survey<T>, next: usize) -> Beside<T> {
+    fn beside(
+        &self,
+        fields: &ExteriorFields<T>,
+        look: &Survey<T>,
+        next: usize,
+    ) -> Fallible<T, Beside<T>> {
         let (contacts, [from, to]) = (self.contacts, self.gap.range());
         let (contact, side) = match next.checked_sub(1) {
             None => (0, Side::Left),
@@ -380,9 +394,17 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let left = next.checked_sub(1).map_or(from, |i| contacts[i].right);
         let right = contacts.get(next).map_or(to, |on| on.left);
         let room = Interval { left, right };
-        let near = T::of(SAMPLED_BEYOND) * contacts[contact].half_width();
         let is_limit = [next > 0, next < contacts.len()];
-        let near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
+        let near = T::of(SAMPLED_BEYOND) * contacts[contact].half_width();
+        let mut near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
+        let infinite = T::one() / T::zero();
+        let mut rates = [-infinite, infinite];
+        for (near, (limit, side)) in near.iter_mut().zip([(left, Side::Right), (right, Side::Left)]) {
+            let Some(away) = self.hollow_beside(limit, side, *near) else { continue };
+            *near = away;
+            let slope = Sampler::default().slope_from(self.gap, limit, side.other())?;
+            match side { Side::Right => rates[1] = slope, Side::Left => rates[0] = slope };
+        }
         // A corner holds the limit in place of one just beyond it.
         let blind = |contact: Option<usize>, side: Side| {
             let held = contact
@@ -399,7 +421,19 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let rise = several.height(next, Side::Left) - height;
             left_out.max((rise - (fields.potential(room.right) - taken) / self.kappa).abs())
         });
-        Beside { next, edge, room, near, blind, height, hidden, taken, doubt, at_corners }
+        Ok(Beside { next, edge, room, near, blind, rates, height, hidden, taken, doubt, at_corners })
+    }
+
+    /// Returns the distance from a limit to a hollow corner that lies beyond it, up to a distance:
+    /// behind it the gap may close again.
+    fn hollow_beside(&self, limit: T, side: Side, within: T) -> Option<T> {
+        let next = match side {
+            Side::Left => self.gap.breakpoint_before(limit),
+            Side::Right => self.gap.breakpoint_after(limit),
+        };
+        let at = if self.gap.is_breakpoint(limit) { Some(limit) } else { next };
+        let away = (at? - limit).abs();
+        (away <= within && self.gap.jump(at?)[0] < T::zero()).then_some(away)
     }
 
     /// Judges an unloaded height, given its place and its uncertainty.
