@@ -15,9 +15,9 @@ pub(super) struct Beside<T> {
     pub near: [T; 2],
     /// Distances from both within which nothing is known.
     pub blind: [T; 2],
-    /// Least and largest slope of the displacement, by what is known at the limits: a potential is
-    /// concave.
-    pub rates: [T; 2],
+    /// If a hollow corner is that near: the distance from the limit within which the pressure
+    /// inside decides without one, and the slope of the gap at the limit.
+    pub hollow: [Option<[T; 2]>; 2],
     /// Height of the gap at this limit, its uncertainty, and the potential there.
     pub height: T,
     pub hidden: T,
@@ -34,9 +34,12 @@ impl<T: Real> Beside<T> {
         x - self.room.left < self.blind[0] || self.room.right - x < self.blind[1]
     }
 
-    /// Returns the slope of the displacement at a place, within what is known of it.
-    pub fn bounded(&self, rate: T) -> T {
-        rate.max(self.rates[0]).min(self.rates[1])
+    /// Returns the slope of the displacement at the limit next to a place, if a hollow corner lies
+    /// there.
+    pub fn rate_at_limit(&self, x: T) -> Option<T> {
+        let away = [x - self.room.left, self.room.right - x];
+        let within = |([near, slope], away): ([T; 2], T)| (away < near).then_some(slope);
+        self.hollow.into_iter().zip(away).find_map(|(hollow, away)| within((hollow?, away)))
     }
 
     /// Tells whether a place is so close to a limit that the pressure inside decides about the gap.

@@ -46,7 +46,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let mut share = half;
         for step in 1..=MAX_HALVES + MAX_CHORDS {
             let x = left + share * (right - left);
-            let slope = look.slope(self.gap, x) + self.gap.tilt() - from.bounded(self.rate(fields, x));
+            let slope = look.slope(self.gap, x) + self.gap.tilt() - self.rate_beside(fields, from, x);
             if slope > T::zero() {
                 (right, rises) = (x, Some(slope));
             } else {
@@ -64,6 +64,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// Returns the slope of the displacement outside the contacts.
     pub(super) fn rate(&self, fields: &ExteriorFields<T>, x: T) -> T {
         fields.slope(x) / self.kappa
+    }
+
+    /// Returns the slope of the displacement beside contacts. Next to a limit with a hollow corner
+    /// behind it the series does not tell it, and it is that of the gap at the limit.
+    fn rate_beside(&self, fields: &ExteriorFields<T>, from: &Beside<T>, x: T) -> T {
+        from.rate_at_limit(x).unwrap_or_else(|| self.rate(fields, x))
     }
 
     /// Finds where the loaded bodies would overlap outside the contacts, up to their ends: the
@@ -332,7 +338,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         [x, height]: [T; 2],
         ends: [[T; 3]; 2],
     ) -> T {
-        let rate_at = |x| from.bounded(self.rate(fields, x));
+        let rate_at = |x| self.rate_beside(fields, from, x);
         let rate = rate_at(x);
         let loaded = |[end, height, slope]: [T; 3]| {
             [end, height + rate * (x - end), slope - rate_at(end)]
@@ -395,15 +401,18 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let right = contacts.get(next).map_or(to, |on| on.left);
         let room = Interval { left, right };
         let is_limit = [next > 0, next < contacts.len()];
-        let near = T::of(SAMPLED_BEYOND) * contacts[contact].half_width();
-        let mut near = is_limit.map(|is_limit| if is_limit { near } else { T::zero() });
-        let infinite = T::one() / T::zero();
-        let mut rates = [-infinite, infinite];
-        for (near, (limit, side)) in near.iter_mut().zip([(left, Side::Right), (right, Side::Left)]) {
-            let Some(away) = self.hollow_beside(limit, side, *near) else { continue };
-            *near = away;
-            let slope = Sampler::default().slope_from(self.gap, limit, side.other())?;
-            match side { Side::Right => rates[1] = slope, Side::Left => rates[0] = slope };
+        let sampled = T::of(SAMPLED_BEYOND) * contacts[contact].half_width();
+        let mut near = is_limit.map(|is_limit| if is_limit { sampled } else { T::zero() });
+        let mut hollow = [None; 2];
+        let limits = [next.checked_sub(1), Some(next).filter(|&next| next < contacts.len())];
+        for (i, side) in Side::BOTH.into_iter().enumerate() {
+            let Some(contact) = limits[i] else { continue };
+            let Some(away) = self.hollow_beside(room[side], side.other(), sampled) else { continue };
+            if self.panels.free_of(contact, self.found.free)[side.other()] {
+                let slope = Sampler::default().slope_from(self.gap, room[side], side)?;
+                hollow[i] = Some([sampled, slope]);
+            }
+            near[i] = away;
         }
         // A corner holds the limit in place of one just beyond it.
         let blind = |contact: Option<usize>, side: Side| {
@@ -421,7 +430,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let rise = several.height(next, Side::Left) - height;
             left_out.max((rise - (fields.potential(room.right) - taken) / self.kappa).abs())
         });
-        Ok(Beside { next, edge, room, near, blind, rates, height, hidden, taken, doubt, at_corners })
+        Ok(Beside { next, edge, room, near, hollow, blind, height, hidden, taken, doubt, at_corners })
     }
 
     /// Returns the distance from a limit to a hollow corner that lies beyond it, up to a distance:
