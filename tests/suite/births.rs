@@ -1,10 +1,10 @@
 //! Contacts about to be born at a corner, or to merge at a hollow one.
 #![allow(missing_docs)]
 
-use crate::common::on_flat;
+use crate::common::{Shares, on_flat};
 use crate::corners::polygon;
 use linecontact::profile::Outline;
-use linecontact::{Contact, Control};
+use linecontact::{Contact, ContactError, Control, SolveError};
 
 /// Between contacts that a load has all but merged, at a hollow corner, the gap is known to
 /// rounding, as are the pressures beside it.
@@ -113,32 +113,89 @@ fn a_land_that_bears_little_is_held_at_its_corner() {
     }
 }
 
-/// Gap that a hollow corner leaves at the end of a wide contact.
+/// Half of a random outline: lines and arcs, with corners of either sign.
+fn half(random: &mut Shares) -> Outline<f64> {
+    let (mut drawn, mut slope) = (Outline::from([0.0; 2]), 0.0);
+    for i in 0..random.between(2.0, 6.0) as usize {
+        if i > 0 && random.between(0.0, 1.0) < 0.6 {
+            slope += random.normal() * random.power_of_ten(-4.0, -1.5);
+            drawn = drawn.corner(slope);
+        }
+        let length = random.between(0.1, 1.0);
+        let [line, hollow] = [0.5, 0.25].map(|share| random.between(0.0, 1.0) < share);
+        let radius = random.power_of_ten(1.3, 3.5) * if hollow { -1.0 } else { 1.0 };
+        drawn = if line { drawn.line(length) } else { drawn.arc(radius, length) };
+        slope += if line { 0.0 } else { length / radius };
+    }
+    drawn.corner(slope.max(0.0) + 0.03).line(4.0)
+}
+
+/// Loads next to those at which contacts are born or merge, at corners of either sign: the
+/// certificate accuses none. `SCENES=n` in the environment sets the number of bodies.
 #[test]
-fn a_contact_behind_a_hollow_corner() {
-    let right = Outline::from([0.0; 2])
-        .arc(1669.2388696217415, 0.12147401992094332)
-        .corner(0.0)
-        .arc(404.5878249504983, 0.35173157265730937)
-        .corner(0.008163575460616936)
-        .arc(27.180985061400907, 0.5732076056981326)
-        .corner(0.003707041656956522)
-        .line(0.3700477608646358)
-        .corner(0.003403023125338611)
-        .arc(-70.26227202667825, 0.967933050449561)
-        .corner(0.03846276502308547)
-        .line(4.0);
-    let left = Outline::from([0.0; 2])
-        .arc(966.7186145082451, 0.7664456245880891)
-        .corner(0.006684120463740123)
-        .line(0.0777118743782497)
-        .corner(0.034645896295178856)
-        .line(4.0);
-    let contact = on_flat(Box::new(right.left(left).build().unwrap()));
-    for share in [0.99, 1.0, 1.001] {
-        let load = 0.01762677383567004 * share;
-        let solution = contact.solve(Control::Load(load)).unwrap();
-        println!("{solution}");
-        println!("{:?}", solution.certify());
+fn loads_beside_births() {
+    let number = |name: &str, default| {
+        std::env::var(name).ok().and_then(|count| count.parse().ok()).unwrap_or(default)
+    };
+    let (first, scenes) = (number("FIRST", 0), number("SCENES", 30));
+    let (mut solved, mut accused, mut refused) = (0, Vec::new(), Vec::new());
+    for seed in first..first + scenes {
+        let mut random = Shares(seed);
+        random.between(0.0, 1.0);
+        let [left, right] = [(); 2].map(|()| half(&mut random));
+        let contact = on_flat(Box::new(right.left(left).build().unwrap()));
+        let lightest = random.power_of_ten(-4.5, -1.5);
+        let mut count = |load: f64| {
+            let solution = match contact.solve(Control::Load(load)) {
+                Ok(solution) => solution,
+                Err(ContactError::Solve(SolveError::DomainTooShort { .. })) => return None,
+                Err(error) => {
+                    refused.push(format!("{seed} {load:e}: {error}"));
+                    return None;
+                }
+            };
+            solved += 1;
+            if let Err(error) = solution.certify() {
+                let on = solution.intervals();
+                accused.push(format!("{seed} {load:e}: {on:?} {error}"));
+            }
+            Some(solution.intervals().len())
+        };
+        let loads: [f64; 8] = std::array::from_fn(|i| lightest * 10f64.powf(i as f64 / 7.0));
+        let counts = loads.map(&mut count);
+        for i in 0..7 {
+            let [mut low, mut high] = [loads[i], loads[i + 1]];
+            let Some((few, other)) = counts[i].zip(counts[i + 1]) else { continue };
+            for _ in 0..if few == other { 0 } else { 14 } {
+                let load = 0.5 * (low + high);
+                let Some(found) = count(load) else { break };
+                *(if found == few { &mut low } else { &mut high }) = load;
+            }
+        }
+    }
+    println!("{solved} solved, {} accused, {} refused", accused.len(), refused.len());
+    println!("{}\n{}", accused.join("\n"), refused.join("\n"));
+    assert!(accused.is_empty() && refused.is_empty());
+}
+
+#[test]
+fn dbg_one() {
+    let seed: u64 = std::env::var("FIRST").unwrap().parse().unwrap();
+    let load: f64 = std::env::var("LOAD").unwrap().parse().unwrap();
+    let mut random = Shares(seed);
+    random.between(0.0, 1.0);
+    let [left, right] = [(); 2].map(|()| half(&mut random));
+    let body = right.left(left).build().unwrap();
+    for piece in crate::common::pieces(&body) {
+        let [p, q] = piece.ends;
+        println!("x {} .. {} slopes {} {}", p.x, q.x, p.dy / p.dx, q.dy / q.dx);
+    }
+    let contact = on_flat(Box::new(body));
+    match contact.solve(Control::Load(load)) {
+        Ok(solution) => {
+            println!("{:?}", solution.intervals());
+            println!("{:?}", solution.certify().map_err(|e| e.to_string()));
+        }
+        Err(error) => println!("{error}"),
     }
 }

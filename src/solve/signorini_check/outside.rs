@@ -307,7 +307,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             return Some((x, verdict));
         };
         let verdict = judged(self.floor(fields, from, [x, height], ends));
-        if !matches!(verdict, Verdict::Overlap | Verdict::Hidden) {
+        if verdict == Verdict::Apart {
             return Some((x, verdict));
         }
         // The height so far was a bound, or interpolated.
