@@ -29,6 +29,16 @@ pub(super) struct Beside<T> {
 }
 
 impl<T: Real> Beside<T> {
+    /// Returns the part of a span that lies in the region.
+    pub fn within(&self, [left, right]: [T; 2]) -> [T; 2] {
+        [left.max(self.room.left), right.min(self.room.right)]
+    }
+
+    /// Tells whether part of a span in the region is next to a hollow corner at a limit.
+    pub fn is_beside_hollow(&self, span: [T; 2]) -> bool {
+        span.iter().any(|&x| self.rate_at_limit(x).is_some())
+    }
+
     /// Tells whether a place is closer to a corner that holds a limit than the limit is known.
     pub fn is_blind(&self, x: T) -> bool {
         x - self.room.left < self.blind[0] || self.room.right - x < self.blind[1]

@@ -60,19 +60,23 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok((!is_untold).then_some(Dip { x, gap, lean, width }))
     }
 
-    /// Returns a place with the gap there by the pressures themselves, if it is known and the
-    /// bodies overlap. (At an upright end a curve tells no height.)
+    /// Returns the lowest place of a span, or the only one, with the gap there by the pressures
+    /// themselves, if it is known and the bodies overlap. (At an upright end a curve tells no
+    /// height.)
     pub(super) fn overlap_by_pressures(
         &self,
         fields: &ExteriorFields<T>,
-        x: T,
+        [from, to]: [T; 2],
         cost: &mut Cost,
     ) -> Option<Dip<T>> {
         let &Self { gap, engine: integrator, kappa, found, .. } = self;
+        let loaded = Solved { gap, integrator, kappa, found };
+        let slope = |x| loaded.gap_slope(x).unwrap_or(T::of(f64::NAN));
+        let x = if from < to { Self::lowest_between(slope, [from, to]) } else { from };
         let mut sampler = Sampler::default();
         sampler.height(gap, x).ok()?;
         let allowed = self.allowed(sampler.highest, T::zero());
-        let open = Solved { gap, integrator, kappa, found }.gap_at(x).ok()?;
+        let open = loaded.gap_at(x).ok()?;
         // Here, there, and at the limit.
         cost.heights += 3 * sampler.cost.evaluations;
         if open < -allowed { self.dip(fields, [x, open], &mut sampler).ok()? } else { None }

@@ -32,21 +32,15 @@ const MAX_HALVES: usize = 8;
 const MAX_CHORDS: usize = 2;
 
 impl<T: Real> SignoriniCheck<'_, T> {
-    /// Returns about the lowest place of the loaded gap between two places; the gap falls at the
-    /// first and rises at the second.
-    fn lowest_between(
-        &self,
-        fields: &ExteriorFields<T>,
-        look: &Survey<T>,
-        from: &Beside<T>,
-        [mut left, mut right]: [T; 2],
-    ) -> T {
+    /// Returns about the lowest place of the loaded gap between two places, given its slope; the gap
+    /// falls at the first and rises at the second.
+    pub(super) fn lowest_between(slope: impl Fn(T) -> T, [mut left, mut right]: [T; 2]) -> T {
         let half = T::of(0.5);
         let (mut falls, mut rises) = (None, None);
         let mut share = half;
         for step in 1..=MAX_HALVES + MAX_CHORDS {
             let x = left + share * (right - left);
-            let slope = look.slope(self.gap, x) + self.gap.tilt() - self.rate_beside(fields, from, x);
+            let slope = slope(x);
             if slope > T::zero() {
                 (right, rises) = (x, Some(slope));
             } else {
@@ -143,8 +137,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
         }
         // What the series leave open, the pressures themselves decide.
-        for x in hidden {
-            dips.extend(self.overlap_by_pressures(fields, x, cost));
+        for span in hidden {
+            dips.extend(self.overlap_by_pressures(fields, span, cost));
         }
         Ok(())
     }
@@ -230,7 +224,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         fields: &ExteriorFields<T>,
         look: &Survey<T>,
         heights: impl Iterator<Item = LowPoint<T>>,
-        (dips, open, hidden): (&mut Vec<Dip<T>>, &mut Vec<[T; 2]>, &mut Vec<T>),
+        (dips, open, hidden): (&mut Vec<Dip<T>>, &mut Vec<[T; 2]>, &mut Vec<[T; 2]>),
         cost: &mut Cost,
     ) -> Fallible<T, ()> {
         let (contacts, hull) = (self.contacts, self.found.interval);
@@ -269,7 +263,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let Some((x, verdict)) = judged else { continue };
             if verdict == Verdict::Overlap {
                 let (found, is_open) = self.verified(fields, &from, x, cost)?;
-                hidden.extend(is_open.then_some(x));
+                hidden.extend(is_open.then_some([x; 2]));
                 if let Some(found) = found {
                     match dips.last_mut().filter(|_| !is_parted) {
                         None => dips.push(found),
@@ -280,7 +274,10 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 }
             }
             is_parted |= between.is_none() && verdict == Verdict::Apart;
-            hidden.extend((verdict == Verdict::Unresolved).then_some(x));
+            let span = between.map(|ends| from.within(ends.map(|end| end[0])));
+            let span = span.filter(|&span| from.is_beside_hollow(span)).unwrap_or([x; 2]);
+            let is_open = verdict == Verdict::Unresolved || span[0] < span[1] && dips.is_empty();
+            hidden.extend(is_open.then_some(span));
         }
         Ok(())
     }
@@ -311,9 +308,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
             return Some((x, verdict));
         }
         // The height so far was a bound, or interpolated.
-        let [left, right] = ends.map(|end| end[0]);
-        let on = [left.max(from.room.left), right.min(from.room.right)];
-        let x = self.lowest_between(fields, look, from, on);
+        let span = ends.map(|end| end[0]);
+        let tilt = self.gap.tilt();
+        let slope =
+            |x| look.slope(self.gap, x) + tilt - self.rate_beside(fields, from, x);
+        let x = Self::lowest_between(slope, from.within(span));
         let verdict = if !from.is_near(x) {
             let height = self.height_at(look, x);
             self.verdict(fields, from, [x, height, hidden])
@@ -323,7 +322,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             Some(verdict).filter(|&verdict| verdict == Verdict::Hidden && hidden > vague)?
         };
         if verdict == Verdict::Hidden {
-            open.extend([[left, right], [from.edge; 2]]);
+            open.extend([span, [from.edge; 2]]);
         }
         Some((x, verdict))
     }
