@@ -310,8 +310,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         // The height so far was a bound, or interpolated.
         let span = ends.map(|end| end[0]);
         let tilt = self.gap.tilt();
-        let slope =
-            |x| look.slope(self.gap, x) + tilt - self.rate_beside(fields, from, x);
+        let slope = |x| look.slope(self.gap, x) + tilt - self.rate_beside(fields, from, x);
         let x = Self::lowest_between(slope, from.within(span));
         let verdict = if !from.is_near(x) {
             let height = self.height_at(look, x);
@@ -339,9 +338,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
     ) -> T {
         let rate_at = |x| self.rate_beside(fields, from, x);
         let rate = rate_at(x);
-        let loaded = |[end, height, slope]: [T; 3]| {
-            [end, height + rate * (x - end), slope - rate_at(end)]
-        };
+        let loaded =
+            |[end, height, slope]: [T; 3]| [end, height + rate * (x - end), slope - rate_at(end)];
         let [[left, before, falls], [right, after, rises]] = ends.map(loaded);
         let chord = (after - before) / (right - left);
         // At a limit the opening slope decides.
@@ -406,7 +404,9 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let limits = [next.checked_sub(1), Some(next).filter(|&next| next < contacts.len())];
         for (i, side) in Side::BOTH.into_iter().enumerate() {
             let Some(contact) = limits[i] else { continue };
-            let Some(away) = self.hollow_beside(room[side], side.other(), sampled) else { continue };
+            let Some(away) = self.hollow_beside(room[side], side.other(), sampled) else {
+                continue;
+            };
             if self.panels.free_of(contact, self.found.free)[side.other()] {
                 let slope = Sampler::default().slope_from(self.gap, room[side], side)?;
                 hollow[i] = Some([sampled, slope]);
@@ -429,7 +429,19 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let rise = several.height(next, Side::Left) - height;
             left_out.max((rise - (fields.potential(room.right) - taken) / self.kappa).abs())
         });
-        Ok(Beside { next, edge, room, near, hollow, blind, height, hidden, taken, doubt, at_corners })
+        Ok(Beside {
+            next,
+            edge,
+            room,
+            near,
+            hollow,
+            blind,
+            height,
+            hidden,
+            taken,
+            doubt,
+            at_corners,
+        })
     }
 
     /// Returns the distance from a limit to a hollow corner that lies beyond it, up to a distance:
