@@ -61,6 +61,8 @@ pub(super) struct Search<'s, 'w, 'b, T: Real> {
     cells: usize,
     /// Set before the last revision of one.
     earlier: Vec<Interval<T>>,
+    /// Limits found free in the last set, if it is revised where it has a fault.
+    free: Vec<T>,
     /// Single contacts in which a feature was lost to the panels.
     lost: Vec<Interval<T>>,
     /// Errors of the search for one contact, and of the last set.
@@ -90,6 +92,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             samples,
             cells: FIRST_CELLS,
             earlier: Vec::new(),
+            free: Vec::new(),
             lost: Vec::new(),
             of_one: None,
             error: None,
@@ -98,6 +101,8 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             end: None,
         }
     }
+
+
 
     /// Returns the first start.
     pub(super) fn first(&mut self) -> Fallible<T, Start> {

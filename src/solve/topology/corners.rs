@@ -124,8 +124,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 if self.end == Some(side) && i == outermost(side) {
                     continue;
                 }
+                // Between other contacts, a limit known to be free is about where it was.
+                let on = self.work.workspace.newton.on[i];
+                if self.free.contains(&on[side]) {
+                    continue;
+                }
                 // A contact narrower than the others, as one just born, bears less.
-                let share = self.work.workspace.newton.on[i].half_width() / width;
+                let share = on.half_width() / width;
                 if let Some(z) = self.corner_next_to(i, side, mean * share.min(T::one()))? {
                     self.hold_at(i, side, z);
                 }
