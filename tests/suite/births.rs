@@ -190,7 +190,11 @@ fn dbg_one() {
         let [p, q] = piece.ends;
         println!("x {} .. {} slopes {} {}", p.x, q.x, p.dy / p.dx, q.dy / q.dx);
     }
-    let contact = on_flat(Box::new(body));
+    let mut contact = on_flat(Box::new(body));
+    if let Ok(start) = std::env::var("START") {
+        let ends: Vec<f64> = start.split(' ').map(|x| x.parse().unwrap()).collect();
+        contact = contact.start(linecontact::Interval { left: ends[0], right: ends[1] });
+    }
     match contact.solve(Control::Load(load)) {
         Ok(solution) => {
             println!("{:?}", solution.intervals());
