@@ -102,8 +102,6 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         }
     }
 
-
-
     /// Returns the first start.
     pub(super) fn first(&mut self) -> Fallible<T, Start> {
         if self.contact.single_interval {

@@ -6,6 +6,9 @@ use crate::solution::{CLOSED_WIDTH, Solved};
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{Fallible, Interval, Real, Side};
 
+/// Halvings of a span in search of its lowest place behind a hollow corner, however close to it.
+const HALVES: usize = 24;
+
 /// Lowest place of a dip of the loaded gap in which bodies overlap, and the gap there.
 #[derive(Clone, Copy)]
 pub(in crate::solve) struct Dip<T> {
@@ -72,7 +75,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let &Self { gap, engine: integrator, kappa, found, .. } = self;
         let loaded = Solved { gap, integrator, kappa, found };
         let slope = |x| loaded.gap_slope(x).unwrap_or(T::of(f64::NAN));
-        let x = if from < to { Self::lowest_between(slope, [from, to]) } else { from };
+        let x = if from < to { Self::lowest_between(slope, HALVES, [from, to]) } else { from };
         let mut sampler = Sampler::default();
         sampler.height(gap, x).ok()?;
         let allowed = self.allowed(sampler.highest, T::zero());

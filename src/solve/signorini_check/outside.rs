@@ -34,11 +34,15 @@ const MAX_CHORDS: usize = 2;
 impl<T: Real> SignoriniCheck<'_, T> {
     /// Returns about the lowest place of the loaded gap between two places, given its slope; the gap
     /// falls at the first and rises at the second.
-    pub(super) fn lowest_between(slope: impl Fn(T) -> T, [mut left, mut right]: [T; 2]) -> T {
+    pub(super) fn lowest_between(
+        slope: impl Fn(T) -> T,
+        halves: usize,
+        [mut left, mut right]: [T; 2],
+    ) -> T {
         let half = T::of(0.5);
         let (mut falls, mut rises) = (None, None);
         let mut share = half;
-        for step in 1..=MAX_HALVES + MAX_CHORDS {
+        for step in 1..=halves + MAX_CHORDS {
             let x = left + share * (right - left);
             let slope = slope(x);
             if slope > T::zero() {
@@ -47,7 +51,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 (left, falls) = (x, Some(-slope));
             }
             // Where finite, the slope is almost straight once the span is short.
-            if step >= MAX_HALVES {
+            if step >= halves {
                 let crossing = falls.zip(rises).map(|(falls, rises)| falls / (falls + rises));
                 share = crossing.filter(|share| share.is_finite()).unwrap_or(half);
             }
@@ -311,7 +315,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let span = ends.map(|end| end[0]);
         let tilt = self.gap.tilt();
         let slope = |x| look.slope(self.gap, x) + tilt - self.rate_beside(fields, from, x);
-        let x = Self::lowest_between(slope, from.within(span));
+        let x = Self::lowest_between(slope, MAX_HALVES, from.within(span));
         let verdict = if !from.is_near(x) {
             let height = self.height_at(look, x);
             self.verdict(fields, from, [x, height, hidden])

@@ -51,8 +51,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let (ends, at_corner) = (self.contact.ends(), self.corners());
         let Workspace { newton, before, .. } = &mut *self.work.workspace;
         let on = &mut newton.on;
-        self.free.clear();
         if matches!(fault, Fault::Tension(_) | Fault::Overlap(_)) {
+            self.free.clear();
             let both = on.iter().zip(&newton.held);
             let free = both.flat_map(|(on, held)| Side::BOTH.map(|side| (!held[side], on[side])));
             self.free.extend(free.filter_map(|(is_free, x)| is_free.then_some(x)));
