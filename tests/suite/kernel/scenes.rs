@@ -1,7 +1,7 @@
 //! Random coated bodies.
 
 use super::oracle::{compliance, residual};
-use super::{coated, half_plane, layer};
+use super::{RIGID, assert_limits, coated, half_plane, layer};
 use crate::common::{Profile, graph, join};
 use crate::corners::polygon;
 use crate::random_scenes::Dice;
@@ -222,4 +222,28 @@ fn random_loads_on_layers_meet_the_equation() {
         assert!(solution.certify().is_ok(), "{seed}: {:?}", solution.certify());
     }
     assert!(1000 * refused <= count && 50 * too_thin <= count, "{refused}, {too_thin}");
+}
+
+/// A land between a wall and a ramp under light loads, on a layer and in a period: held at both
+/// corners, its pressure is in proportion to the load.
+#[test]
+fn a_land_under_light_loads() {
+    let wall = 1e6;
+    let points = [[-0.5, 0.025], [0.0, 0.0], [1.5, 0.0], [1.5 + 0.025 / wall, 0.025], [2.5, 0.025]];
+    let body = polygon(&points);
+    let layer = layer(1.0, 0.3, 0.4, Base::Bonded);
+    let steel = Material::elastic(3.0, 0.3);
+    for contact in [coated(&body, RIGID, layer), coated(&body, RIGID, steel).period(3.0)] {
+        let mut last = None;
+        for load in [1e-9, 1e-7, 1e-5] {
+            let solution = contact.solve(Control::Load(load)).unwrap();
+            assert_limits(&solution, &[[0.0, 1.5]], 1e-6);
+            let pressure = solution.pressure().unwrap();
+            let shares = [0.1, 0.75, 1.4].map(|x| pressure.at(x).unwrap() / load);
+            for (share, last) in shares.into_iter().zip(last.unwrap_or(shares)) {
+                assert!((share / last - 1.0).abs() < 1e-4, "{load}: {shares:?} {last:?}");
+            }
+            last = Some(shares);
+        }
+    }
 }
