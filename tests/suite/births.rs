@@ -113,6 +113,22 @@ fn a_land_that_bears_little_is_held_at_its_corner() {
     }
 }
 
+/// A narrow land behind a hollow corner, and a wide contact before it: no limit of the wide one is
+/// held at the corner of the land.
+#[test]
+fn narrow_lands_behind_hollow_corners() {
+    for width in [0.3, 0.1, 0.03, 0.01] {
+        let half = Outline::from([0.0; 2]).line(1.0).corner(0.02).line(0.7).corner(0.0).line(width);
+        let body = half.corner(1e4).line(1e-6).mirrored().build().unwrap();
+        let contact = on_flat(Box::new(body));
+        for load in [0.02, 0.03, 0.05] {
+            let solution = contact.solve(Control::Load(load)).unwrap();
+            assert_eq!(solution.intervals().len(), if width > 0.1 && load < 0.03 { 1 } else { 3 });
+            assert!(solution.certify().unwrap().is_proved(), "{width} {load}: {solution}");
+        }
+    }
+}
+
 /// Half of a random outline: lines and arcs, with corners of either sign.
 fn half(random: &mut Shares) -> Outline<f64> {
     let (mut drawn, mut slope) = (Outline::from([0.0; 2]), 0.0);

@@ -206,7 +206,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let (on, outward) = (self.work.workspace.newton.on[i], outward::<T>(side));
         let (x, near) = (on[side], T::of(NEAR_CORNER) * on.half_width());
         let inside = on[side.other()];
-        let mut corners = self.breakpoints(x - outward * near, x + outward * near);
+        let free = self.next_limit(i, side).map_or(near, |next| near.min((next - x).abs()));
+        let mut corners = self.breakpoints(x - outward * near, x + outward * free);
         corners.retain(|&z| outward * (z - inside) > T::zero());
         let reach = T::of(SHORT_WALL) * on.half_width();
         for z in corners {
@@ -223,6 +224,15 @@ impl<T: Real> Search<'_, '_, '_, T> {
             }
         }
         Ok(None)
+    }
+
+    /// Returns the limit of the next contact on a side.
+    fn next_limit(&self, contact: usize, side: Side) -> Option<T> {
+        let on = &self.work.workspace.newton.on;
+        match side {
+            Side::Left => contact.checked_sub(1).map(|next| on[next].right),
+            Side::Right => on.get(contact + 1).map(|next| next.left),
+        }
     }
 
     /// Lists the breakpoints from one place to another.
@@ -385,11 +395,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let (half, on) = (T::of(0.5), self.work.workspace.newton.on[contact]);
         let (z, half_width) = (on[side], on.half_width());
         let free = half * half_width;
-        let all = &self.work.workspace.newton.on;
-        let next = match side {
-            Side::Left => contact.checked_sub(1).map(|next| all[next].right),
-            Side::Right => all.get(contact + 1).map(|next| next.left),
-        };
+        let next = self.next_limit(contact, side);
         let reach = next.map_or(free, |x| free.min(half * (x - z).abs()));
         let ends = self.breakpoints(z, z + outward::<T>(side) * reach);
         let hollow = ends.into_iter().find(|&x| self.contact.gap.jump(x)[0] < T::zero());
