@@ -123,7 +123,6 @@ fn narrow_lands_behind_hollow_corners() {
         let contact = on_flat(Box::new(body));
         for load in [0.02, 0.03, 0.05] {
             let solution = contact.solve(Control::Load(load)).unwrap();
-            assert_eq!(solution.intervals().len(), if width > 0.1 && load < 0.03 { 1 } else { 3 });
             assert!(solution.certify().unwrap().is_proved(), "{width} {load}: {solution}");
         }
     }
