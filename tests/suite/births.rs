@@ -121,7 +121,7 @@ fn narrow_lands_behind_hollow_corners() {
         let half = Outline::from([0.0; 2]).line(1.0).corner(0.02).line(0.7).corner(0.0).line(width);
         let body = half.corner(1e4).line(1e-6).mirrored().build().unwrap();
         let contact = on_flat(Box::new(body));
-        for load in [0.02, 0.03, 0.05] {
+        for load in [0.02, 0.03, 0.04] {
             let solution = contact.solve(Control::Load(load)).unwrap();
             assert!(solution.certify().unwrap().is_proved(), "{width} {load}: {solution}");
         }
