@@ -46,6 +46,15 @@ impl<T: Real> Solution<'_, T> {
 impl<T: Real> Solved<'_, T> {
     /// Returns the distance between the loaded bodies at a place outside the contacts.
     pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
+        self.gap_by(x, || Integrals::new(*self))
+    }
+
+    /// Returns the same by given integrals.
+    pub fn gap_by<'s>(
+        &'s self,
+        x: T,
+        integrals: impl FnOnce() -> Fallible<T, Integrals<T, Pressure<'s, T>>>,
+    ) -> Fallible<T, T> {
         let x = self.gap.folded(x);
         let (edge, _) = self.nearest_edge(x)?;
         let separation = self.found.apart.unwrap_or(T::zero());
@@ -60,7 +69,7 @@ impl<T: Real> Solved<'_, T> {
         if self.found.apart.is_some() {
             return Ok(bodies + separation);
         }
-        let [pushed] = Integrals::new(*self)?
+        let [pushed] = integrals()?
             .over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
         Ok(bodies - pushed / self.kappa)
     }

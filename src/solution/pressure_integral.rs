@@ -51,6 +51,8 @@ pub(crate) struct Integrals<T: Real, D> {
     pub density: D,
     /// Integral of the density over all contacts.
     pub load: T,
+    /// Largest number of panels beyond those between the breakpoints.
+    most: usize,
     /// Contacts, from left to right.
     contacts: Ones<T>,
 }
@@ -107,7 +109,8 @@ impl<'p, T: Real> Integrals<T, Pressure<'p, T>> {
             One { on, breakpoints: gap.breakpoints(on).collect(), beyond, free, kept }
         };
         let contacts = Ones::of(contacts, one);
-        Ok(Self { density: Pressure::new(solved)?, load: solved.found.load, contacts })
+        let (density, load) = (Pressure::new(solved)?, solved.found.load);
+        Ok(Self { density, load, most: MAX_PANELS, contacts })
     }
 }
 
@@ -118,7 +121,12 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         let (breakpoints, beyond, free) = (Vec::new(), [None; 2], Ends::both(false));
         let one = One { on: contacts[0], breakpoints, beyond, free, kept: OnceLock::new() };
         let contacts = Ones::of(contacts, |(_, &on)| One { on, ..one.clone() });
-        Self { density, load: T::one(), contacts }
+        Self { density, load: T::one(), most: MAX_PANELS, contacts }
+    }
+
+    /// Gives up each integral after a number of panels.
+    pub fn up_to(self, most: usize) -> Self {
+        Self { most, ..self }
     }
 
     /// Returns `∫ K dθ` for kernels of `x - s` and `P w`.
@@ -274,7 +282,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
         }
         // Below about the least normal number there are fewer digits.
         let least = T::max_value().map_or(least, |max| least.max(max.recip()));
-        let mut left = MAX_PANELS;
+        let mut left = self.most;
         while let Some((contact, whole, known)) = pending.pop() {
             let [from, to] = whole.ends;
             let middle = T::of(0.5) * (from + to);
@@ -295,7 +303,7 @@ impl<T: Real, D: Density<T>> Integrals<T, D> {
                 continue;
             }
             if left == 0 {
-                return Err(EvaluationError::Integral { x, panels: MAX_PANELS }.into());
+                return Err(EvaluationError::Integral { x, panels: self.most }.into());
             }
             left -= 1;
             pending.extend(halves.map(|half| (contact, half, None)));

@@ -2,12 +2,16 @@
 
 use super::SignoriniCheck;
 use crate::gap::{Cost, Sampler};
-use crate::solution::{CLOSED_WIDTH, Solved};
+use crate::solution::{CLOSED_WIDTH, Integrals, Solved};
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{Fallible, Interval, Real, Side};
 
 /// Halvings of a span in search of its lowest place behind a hollow corner, however close to it.
 const HALVES: usize = 24;
+
+/// Panels after which an integral of the pressure is given up in a check: each takes 48 pressures,
+/// among thousands of corners that are no breakpoints some milliseconds.
+const CHECKED_PANELS: usize = 1000;
 
 /// Lowest place of a dip of the loaded gap in which bodies overlap, and the gap there.
 #[derive(Clone, Copy)]
@@ -27,11 +31,20 @@ pub(in crate::solve) struct Overlaps<T> {
     pub dips: Vec<Dip<T>>,
     /// Spans outside the contacts that a heavier load has closed.
     pub closed_before: Vec<Interval<T>>,
+    /// Flag: at some place neither the series of the pressures nor the pressures themselves tell
+    /// whether the bodies overlap.
+    pub is_untold: bool,
 }
 
 impl<T: Real> Overlaps<T> {
     pub fn new() -> Self {
-        Self { dips: Vec::new(), closed_before: Vec::new() }
+        Self { dips: Vec::new(), closed_before: Vec::new(), is_untold: false }
+    }
+
+    /// Forgets the dips.
+    pub fn clear(&mut self) {
+        self.dips.clear();
+        self.is_untold = false;
     }
 
     /// Returns the deepest dip.
@@ -63,25 +76,40 @@ impl<T: Real> SignoriniCheck<'_, T> {
         Ok((!is_untold).then_some(Dip { x, gap, lean, width }))
     }
 
-    /// Returns the lowest place of a span, or the only one, with the gap there by the pressures
-    /// themselves, if it is known and the bodies overlap. (At an upright end a curve tells no
-    /// height.)
+    /// Finds the dips among the lowest places of some spans, or of spans without width the only
+    /// ones, by the pressures themselves. (At an upright end a curve tells no height.)
     pub(super) fn overlap_by_pressures(
         &self,
         fields: &ExteriorFields<T>,
-        [from, to]: [T; 2],
+        spans: &[[T; 2]],
+        Overlaps { dips, is_untold, .. }: &mut Overlaps<T>,
         cost: &mut Cost,
-    ) -> Option<Dip<T>> {
+    ) -> Fallible<T, ()> {
         let &Self { gap, engine: integrator, kappa, found, .. } = self;
         let loaded = Solved { gap, integrator, kappa, found };
         let slope = |x| loaded.gap_slope(x).unwrap_or(T::of(f64::NAN));
-        let x = if from < to { Self::lowest_between(slope, HALVES, [from, to]) } else { from };
-        let mut sampler = Sampler::default();
-        sampler.height(gap, x).ok()?;
-        let allowed = self.allowed(sampler.highest, T::zero());
-        let open = loaded.gap_at(x).ok()?;
-        // Here, there, and at the limit.
-        cost.heights += 3 * sampler.cost.evaluations;
-        if open < -allowed { self.dip(fields, [x, open], &mut sampler).ok()? } else { None }
+        for &[from, to] in spans {
+            let x = if from < to { Self::lowest_between(slope, HALVES, [from, to]) } else { from };
+            let mut sampler = Sampler::default();
+            if sampler.height(gap, x).is_err() {
+                continue;
+            }
+            let allowed = self.allowed(sampler.highest, T::zero());
+            // Here, there, and at the limit.
+            cost.heights += 3 * sampler.cost.evaluations;
+            let integrals = || Ok(Integrals::new(loaded)?.up_to(CHECKED_PANELS));
+            match loaded.gap_by(x, integrals) {
+                Ok(open) if open < -allowed => {
+                    dips.extend(self.dip(fields, [x, open], &mut sampler)?);
+                }
+                Ok(_) => {}
+                // The next one would take as long, and tell as little.
+                Err(_) => {
+                    *is_untold = true;
+                    break;
+                }
+            }
+        }
+        Ok(())
     }
 }

@@ -76,12 +76,13 @@ impl<T: Real> SignoriniCheck<'_, T> {
     pub fn overlap(
         &self,
         fields: &mut ExteriorFields<T>,
-        Overlaps { dips, closed_before }: &mut Overlaps<T>,
+        overlaps: &mut Overlaps<T>,
         look: &mut Survey<T>,
         ends: Ends<T>,
         cost: &mut Cost,
     ) -> Fallible<T, ()> {
         self.compare_heights(look, cost)?;
+        let Overlaps { dips, closed_before, .. } = &mut *overlaps;
         self.list_closed_before(closed_before);
         if !self.widest.is_empty() && closed_before.is_empty() {
             return Ok(());
@@ -141,10 +142,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
         }
         // What the series leave open, the pressures themselves decide.
-        for span in hidden {
-            dips.extend(self.overlap_by_pressures(fields, span, cost));
-        }
-        Ok(())
+        self.overlap_by_pressures(fields, &hidden, overlaps, cost)
     }
 
     /// Compares the rise of the gap over one contact by its slopes and by the heights of the

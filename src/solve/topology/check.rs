@@ -38,9 +38,14 @@ impl<T: Real> Search<'_, '_, '_, T> {
     /// Checks a solution, unless that is not asked for, and reports it if it has no fault.
     pub(in super::super) fn check(&mut self, found: &ContactState<T>) -> Result<(), Fault<T>> {
         let single = self.contact.single_interval;
+        self.work.workspace.overlaps.clear();
         match if single { None } else { self.checked(found)? } {
             None => {
-                let outcome = if single { Outcome::Unchecked } else { Outcome::Passed };
+                let outcome = match self.work.workspace.overlaps.is_untold {
+                    _ if single => Outcome::Unchecked,
+                    false => Outcome::Passed,
+                    true => Outcome::Doubtful,
+                };
                 self.work.workspace.report.add(self.start, outcome);
                 Ok(())
             }
@@ -96,7 +101,6 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let engine = &self.work.integrator;
         let check = SignoriniCheck { gap, panels, engine, contacts, kappa, found, widest, pressed };
         fields.each.clear();
-        overlaps.dips.clear();
         if let Some([x, pressure]) = check.tension(fields, tension_spans)? {
             if pressure.partial_cmp(&pressure).is_none() {
                 return Err(SolveError::Overflow { interval }.into());
