@@ -366,11 +366,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 return Err(full);
             }
         }
-        let was_checked = std::mem::replace(&mut self.is_checked, true);
-        // On a land that its corners hold, a search for one contact does not find it.
-        let is_sought = !was_checked && self.may_be_one && !self.contact.single_interval;
-        if is_sought && !self.has_converged && !self.spreads.is_empty() && !self.fills(&error) {
-            self.may_be_one = false;
+        let was_one = !std::mem::replace(&mut self.is_checked, true);
+        // Corners that hold a land are found only among any number of contacts.
+        if was_one && self.may_be_one && !self.spreads.is_empty() && !self.fills(&error) {
+            self.may_be_one = self.contact.single_interval;
             return Ok(());
         }
         let [cut, _] = self.gap.range();

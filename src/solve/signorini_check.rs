@@ -23,7 +23,8 @@ pub(super) use passed::{Passed, Under};
 /// Largest number of places with tension whose uncertainty is estimated.
 const MAX_DOUBTFUL: usize = 256;
 
-/// Largest number of places in a contact at which the pressure is evaluated for the gap next to it.
+/// Largest number of places in a contact at which the pressure is evaluated for the gap next to it,
+/// and of panels of its integral, of 48 places each.
 const MAX_POINTS: usize = 4096;
 
 /// Least distance of such a place from a limit, in units of rounding of the contact.

@@ -1,6 +1,13 @@
 //! Regions next to contacts, and what is known of the gap there.
 
-use crate::{Interval, Real};
+use super::SignoriniCheck;
+use crate::gap::{Sampler, Survey};
+use crate::solve::exterior_field::ExteriorFields;
+use crate::{Fallible, Interval, Real, Side};
+
+/// Share of a contact's half-width beyond its limits that is sampled with it: there the pressure
+/// inside shows that the gap opens.
+const SAMPLED_BEYOND: f64 = 0.002;
 
 /// Region between two contacts, or beyond the outermost ones.
 #[derive(Clone, Copy)]
@@ -67,4 +74,92 @@ pub(super) enum Verdict {
     /// Overlap, if any, within the uncertainty of the survey.
     Hidden,
     Overlap,
+}
+
+impl<T: Real> SignoriniCheck<'_, T> {
+    /// Describes the region next to a contact: before one of them, or beyond the last.
+    pub(super) fn beside(
+        &self,
+        fields: &ExteriorFields<T>,
+        look: &Survey<T>,
+        next: usize,
+    ) -> Fallible<T, Beside<T>> {
+        let (contacts, [from, to]) = (self.contacts, self.gap.range());
+        let (contact, side) = match next.checked_sub(1) {
+            None => (0, Side::Left),
+            Some(before) => (before, Side::Right),
+        };
+        let edge = contacts[contact][side];
+        let at = self.gap.nearest(edge);
+        let (height, hidden) = match self.panels.several() {
+            Some(several) => (several.height(contact, side), T::zero()),
+            None => (self.height_at(look, at), look.doubt_at(at)),
+        };
+        let left = next.checked_sub(1).map_or(from, |i| contacts[i].right);
+        let right = contacts.get(next).map_or(to, |on| on.left);
+        let room = Interval { left, right };
+        let sampled = T::of(SAMPLED_BEYOND) * contacts[contact].half_width();
+        let limits = [
+            next.checked_sub(1).map(|before| (before, Side::Right)),
+            Some((next, Side::Left)).filter(|_| next < contacts.len()),
+        ];
+        let mut near = limits.map(|limit| limit.map_or(T::zero(), |_| sampled));
+        let mut hollow = [None; 2];
+        for (i, limit) in limits.into_iter().enumerate() {
+            let Some(away) = limit.and_then(|limit| self.hollow_beside(limit, sampled)) else {
+                continue;
+            };
+            near[i] = away;
+            hollow[i] = self.slope_at(limit)?.map(|slope| [sampled, slope]);
+        }
+        // A corner holds the limit in place of one just beyond it.
+        let held = limits.map(|limit| limit.filter(|&limit| !self.is_free(limit)));
+        let blind = held.map(|on| on.map_or(T::zero(), |(i, _)| self.found.blind(contacts[i])));
+        let taken = fields.potential(edge);
+        // On both sides of a region the gap is closed: what the potentials leave of it is their
+        // error.
+        let [left_out, at_corners] = fields.doubt_in(room).map(|doubt| doubt / self.kappa);
+        let several = self.panels.several().filter(|_| limits.iter().all(Option::is_some));
+        let doubt = several.map_or(left_out, |several| {
+            let rise = several.height(next, Side::Left) - height;
+            left_out.max((rise - (fields.potential(room.right) - taken) / self.kappa).abs())
+        });
+        Ok(Beside {
+            next,
+            edge,
+            room,
+            near,
+            hollow,
+            blind,
+            height,
+            hidden,
+            taken,
+            doubt,
+            at_corners,
+        })
+    }
+
+    /// Tells whether a limit, given by the number of its contact and the side, is free.
+    fn is_free(&self, (contact, side): (usize, Side)) -> bool {
+        self.panels.free_of(contact, self.found.free)[side]
+    }
+
+    /// Returns the slope of the gap at a limit if that is free: the slope of the displacement.
+    fn slope_at(&self, limit: Option<(usize, Side)>) -> Fallible<T, Option<T>> {
+        let Some((i, side)) = limit.filter(|&limit| self.is_free(limit)) else { return Ok(None) };
+        Sampler::default().slope_from(self.gap, self.contacts[i][side], side.other()).map(Some)
+    }
+
+    /// Returns the distance from a limit to a hollow corner that lies beyond it, up to a distance:
+    /// behind it the gap may close again.
+    fn hollow_beside(&self, (contact, side): (usize, Side), within: T) -> Option<T> {
+        let limit = self.contacts[contact][side];
+        let next = match side {
+            Side::Left => self.gap.breakpoint_before(limit),
+            Side::Right => self.gap.breakpoint_after(limit),
+        };
+        let corner = if self.gap.is_breakpoint(limit) { limit } else { next? };
+        let away = (corner - limit).abs();
+        (away <= within && self.gap.jump(corner)[0] < T::zero()).then_some(away)
+    }
 }

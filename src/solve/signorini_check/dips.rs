@@ -1,17 +1,11 @@
 //! Dips of the loaded gap in which bodies overlap, and the contacts that belong there.
 
-use super::SignoriniCheck;
+use super::outside::MAX_HALVES;
+use super::{MAX_POINTS, SignoriniCheck};
 use crate::gap::{Cost, Sampler};
 use crate::solution::{CLOSED_WIDTH, Integrals, Solved};
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{Fallible, Interval, Real, Side};
-
-/// Halvings of a span in search of its lowest place behind a hollow corner, however close to it.
-const HALVES: usize = 24;
-
-/// Panels after which an integral of the pressure is given up in a check: each takes 48 pressures,
-/// among thousands of corners that are no breakpoints some milliseconds.
-const CHECKED_PANELS: usize = 1000;
 
 /// Lowest place of a dip of the loaded gap in which bodies overlap, and the gap there.
 #[derive(Clone, Copy)]
@@ -89,7 +83,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let loaded = Solved { gap, integrator, kappa, found };
         let slope = |x| loaded.gap_slope(x).unwrap_or(T::of(f64::NAN));
         for &[from, to] in spans {
-            let x = if from < to { Self::lowest_between(slope, HALVES, [from, to]) } else { from };
+            // Behind a hollow corner the place may be very close to it.
+            let x = if from < to {
+                Self::lowest_between(slope, 3 * MAX_HALVES, [from, to])
+            } else {
+                from
+            };
             let mut sampler = Sampler::default();
             if sampler.height(gap, x).is_err() {
                 continue;
@@ -97,7 +96,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let allowed = self.allowed(sampler.highest, T::zero());
             // Here, there, and at the limit.
             cost.heights += 3 * sampler.cost.evaluations;
-            let integrals = || Ok(Integrals::new(loaded)?.up_to(CHECKED_PANELS));
+            let integrals = || Ok(Integrals::new(loaded)?.up_to(MAX_POINTS));
             match loaded.gap_by(x, integrals) {
                 Ok(open) if open < -allowed => {
                     dips.extend(self.dip(fields, [x, open], &mut sampler)?);

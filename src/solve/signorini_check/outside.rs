@@ -15,10 +15,6 @@ use crate::{Ends, Fallible, Interval, Real, Side};
 const MAX_TRUNCATION: f64 = 1e-3;
 const HIDING_FACTOR: f64 = 0.01;
 
-/// Share of a contact's half-width beyond its limits that is sampled with it: there the pressure
-/// inside shows that the gap opens.
-const SAMPLED_BEYOND: f64 = 0.002;
-
 /// Largest difference of heights and slopes on the rise over a contact, as a share of F/κ.
 const STEP: f64 = 0.01;
 
@@ -28,7 +24,7 @@ const MAX_ROUNDS: usize = 40;
 /// Halvings of a span between two heights in search of its lowest place, and cuts at the zero of
 /// the chord of the slope, each of which leaves a thousandth of the distance: a contact is born
 /// there with as little as a millionth.
-const MAX_HALVES: usize = 8;
+pub(super) const MAX_HALVES: usize = 8;
 const MAX_CHORDS: usize = 2;
 
 impl<T: Real> SignoriniCheck<'_, T> {
@@ -91,24 +87,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
             self.fields(fields)?;
         }
         let corners = [self.corner(Side::Left, ends, cost)?, self.corner(Side::Right, ends, cost)?];
-        let tilt = self.gap.tilt();
-        let turned = |[x, height, slope]: [T; 3]| [x, self.gap.turned(x, height), slope + tilt];
-        let within = |low: LowPoint<T>| {
-            let height = self.gap.turned(low.x, low.height);
-            let Some(span) = low.between else {
-                let is_inside = ends.left <= low.x && low.x <= ends.right;
-                return is_inside.then_some(LowPoint { height, ..low });
-            };
-            // At a corner inside the span, the height follows the tangent.
-            let cut = |[x, height, slope]: [T; 3]| {
-                let at = x.max(ends.left).min(ends.right);
-                if at == x { [x, height, slope] } else { [at, height + slope * (at - x), slope] }
-            };
-            let [from, to] = span.map(turned).map(cut);
-            let x = low.x.max(from[0]).min(to[0]);
-            let between = Some([from, to]);
-            (from[0] < to[0]).then_some(LowPoint { x, height, between, ..low })
-        };
         let is_new = |low: &LowPoint<T>| {
             let [from, to] = low.between.map_or([low.x; 2], |ends| ends.map(|end| end[0]));
             let after = closed_before.partition_point(|on| on.right < from);
@@ -119,7 +97,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         let (mut open, mut hidden) = (Vec::new(), Vec::new());
         for _ in 0..MAX_ROUNDS {
             let [first, last] = corners;
-            let lows = look.low_points().filter_map(within);
+            let lows = look.low_points().filter_map(|low| self.within(ends, low));
             let lows = lows.flat_map(|low| self.outside(look, low)).filter(is_new);
             let heights = first.into_iter().chain(lows).chain(last);
             open.clear();
@@ -143,6 +121,24 @@ impl<T: Real> SignoriniCheck<'_, T> {
         }
         // What the series leave open, the pressures themselves decide.
         self.overlap_by_pressures(fields, &hidden, overlaps, cost)
+    }
+
+    /// Returns a height of the turned gap, or the part of a span, within the ends of the bodies.
+    fn within(&self, ends: Ends<T>, low: LowPoint<T>) -> Option<LowPoint<T>> {
+        let height = self.gap.turned(low.x, low.height);
+        let Some(span) = low.between else {
+            let is_inside = ends.left <= low.x && low.x <= ends.right;
+            return is_inside.then_some(LowPoint { height, ..low });
+        };
+        // At a corner inside the span, the height follows the tangent.
+        let cut = |[x, height, slope]: [T; 3]| {
+            let (height, slope) = (self.gap.turned(x, height), slope + self.gap.tilt());
+            let at = x.max(ends.left).min(ends.right);
+            if at == x { [x, height, slope] } else { [at, height + slope * (at - x), slope] }
+        };
+        let [from, to] = span.map(cut);
+        let x = low.x.max(from[0]).min(to[0]);
+        (from[0] < to[0]).then_some(LowPoint { x, height, between: Some([from, to]), ..low })
     }
 
     /// Compares the rise of the gap over one contact by its slopes and by the heights of the
@@ -170,7 +166,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
     }
 
     /// Returns the height of the gap at a place, before the bodies are loaded.
-    fn height_at(&self, look: &Survey<T>, x: T) -> T {
+    pub(super) fn height_at(&self, look: &Survey<T>, x: T) -> T {
         self.gap.turned(x, look.height(self.gap, x))
     }
 
@@ -376,86 +372,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 }
             }
         }
-    }
-
-    /// Describes the region next to a contact: before one of them, or beyond the last.
-    fn beside(
-        &self,
-        fields: &ExteriorFields<T>,
-        look: &Survey<T>,
-        next: usize,
-    ) -> Fallible<T, Beside<T>> {
-        let (contacts, [from, to]) = (self.contacts, self.gap.range());
-        let (contact, side) = match next.checked_sub(1) {
-            None => (0, Side::Left),
-            Some(before) => (before, Side::Right),
-        };
-        let edge = contacts[contact][side];
-        let at = self.gap.nearest(edge);
-        let (height, hidden) = match self.panels.several() {
-            Some(several) => (several.height(contact, side), T::zero()),
-            None => (self.height_at(look, at), look.doubt_at(at)),
-        };
-        let left = next.checked_sub(1).map_or(from, |i| contacts[i].right);
-        let right = contacts.get(next).map_or(to, |on| on.left);
-        let room = Interval { left, right };
-        let is_limit = [next > 0, next < contacts.len()];
-        let sampled = T::of(SAMPLED_BEYOND) * contacts[contact].half_width();
-        let mut near = is_limit.map(|is_limit| if is_limit { sampled } else { T::zero() });
-        let mut hollow = [None; 2];
-        let limits = [next.checked_sub(1), Some(next).filter(|&next| next < contacts.len())];
-        for (i, side) in Side::BOTH.into_iter().enumerate() {
-            let Some(contact) = limits[i] else { continue };
-            let Some(away) = self.hollow_beside(room[side], side.other(), sampled) else {
-                continue;
-            };
-            if self.panels.free_of(contact, self.found.free)[side.other()] {
-                let slope = Sampler::default().slope_from(self.gap, room[side], side)?;
-                hollow[i] = Some([sampled, slope]);
-            }
-            near[i] = away;
-        }
-        // A corner holds the limit in place of one just beyond it.
-        let blind = |contact: Option<usize>, side: Side| {
-            let held = contact
-                .filter(|&i| i < contacts.len() && !self.panels.free_of(i, self.found.free)[side]);
-            held.map_or(T::zero(), |i| self.found.blind(contacts[i]))
-        };
-        let blind = [blind(next.checked_sub(1), Side::Right), blind(Some(next), Side::Left)];
-        let taken = fields.potential(edge);
-        // On both sides of a region the gap is closed: what the potentials leave of it is their
-        // error.
-        let [left_out, at_corners] = fields.doubt_in(room).map(|doubt| doubt / self.kappa);
-        let several = self.panels.several().filter(|_| is_limit == [true; 2]);
-        let doubt = several.map_or(left_out, |several| {
-            let rise = several.height(next, Side::Left) - height;
-            left_out.max((rise - (fields.potential(room.right) - taken) / self.kappa).abs())
-        });
-        Ok(Beside {
-            next,
-            edge,
-            room,
-            near,
-            hollow,
-            blind,
-            height,
-            hidden,
-            taken,
-            doubt,
-            at_corners,
-        })
-    }
-
-    /// Returns the distance from a limit to a hollow corner that lies beyond it, up to a distance:
-    /// behind it the gap may close again.
-    fn hollow_beside(&self, limit: T, side: Side, within: T) -> Option<T> {
-        let next = match side {
-            Side::Left => self.gap.breakpoint_before(limit),
-            Side::Right => self.gap.breakpoint_after(limit),
-        };
-        let at = if self.gap.is_breakpoint(limit) { Some(limit) } else { next };
-        let away = (at? - limit).abs();
-        (away <= within && self.gap.jump(at?)[0] < T::zero()).then_some(away)
     }
 
     /// Judges an unloaded height, given its place and its uncertainty.
