@@ -11,7 +11,7 @@
 //! (Johnson, *Contact Mechanics*, 1985, Eqs. 2.24 and 2.25 for one half-plane, added up for two).
 
 use super::Solved;
-use super::pressure_integral::Integrals;
+use super::pressure_integral::{Integrals, MAX_PANELS};
 use crate::gap::Sampler;
 use crate::{
     ContactError, EvaluationError, Fallible, Interval, Pressure, Real, Solution, SolveError,
@@ -46,15 +46,11 @@ impl<T: Real> Solution<'_, T> {
 impl<T: Real> Solved<'_, T> {
     /// Returns the distance between the loaded bodies at a place outside the contacts.
     pub fn gap_at(&self, x: T) -> Result<T, ContactError<T>> {
-        self.gap_by(x, || Integrals::new(*self))
+        self.gap_up_to(MAX_PANELS, x)
     }
 
-    /// Returns the same by given integrals.
-    pub fn gap_by<'s>(
-        &'s self,
-        x: T,
-        integrals: impl FnOnce() -> Fallible<T, Integrals<T, Pressure<'s, T>>>,
-    ) -> Fallible<T, T> {
+    /// Returns the same by integrals that are each given up after a number of panels.
+    pub fn gap_up_to(&self, panels: usize, x: T) -> Fallible<T, T> {
         let x = self.gap.folded(x);
         let (edge, _) = self.nearest_edge(x)?;
         let separation = self.found.apart.unwrap_or(T::zero());
@@ -69,8 +65,9 @@ impl<T: Real> Solved<'_, T> {
         if self.found.apart.is_some() {
             return Ok(bodies + separation);
         }
-        let [pushed] = integrals()?
-            .over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
+        let integrals = Integrals::new(*self)?.up_to(panels);
+        let [pushed] =
+            integrals.over(edge, |distance, strength| [strength * (beyond / distance).ln_1p()])?;
         Ok(bodies - pushed / self.kappa)
     }
 

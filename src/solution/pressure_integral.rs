@@ -33,7 +33,7 @@ const NODES: usize = 16;
 const COEFFICIENT_NOISE: f64 = 1e-11;
 
 /// Largest number of panels beyond those between the breakpoints, before an integral is given up.
-const MAX_PANELS: usize = 20_000;
+pub(super) const MAX_PANELS: usize = 20_000;
 
 /// Integrated quantity: the pressure, or its rate with the load.
 pub(crate) trait Density<T: Real> {

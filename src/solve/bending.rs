@@ -21,7 +21,7 @@ use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
 use crate::solution::{ContactState, Integrals, Report, Solved};
 use crate::{ContactError, Edge, Ends, Fallible, InputError, Interval, Real, Side, SolveError};
 use cells::line_of_load;
-use row::merged;
+use row::{hull, merged};
 
 /// Contacts solved before the search is given up.
 const MAX_SOLVES: usize = 120;
@@ -248,13 +248,6 @@ struct Bending<'s, 'w, 'b, T: Real> {
     is_checked: bool,
     has_converged: bool,
     may_be_one: bool,
-}
-
-/// Returns the interval of some pressures, from the first to the last.
-fn hull<T: Real>(spreads: &[Spread<T>]) -> Option<Interval<T>> {
-    let contacts = merged(spreads);
-    let [first, last] = [contacts.first()?, contacts.last()?];
-    Some(Interval { left: first.left, right: last.right })
 }
 
 /// Returns the ρ of rounding.

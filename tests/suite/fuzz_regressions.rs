@@ -355,8 +355,8 @@ fn a_search_spends_no_more_than_its_budget() {
     let fault = Contact::new(&Flat, &hundreds).unwrap().solve(Control::Load(0.02)).unwrap_err();
     assert!(matches!(fault, ContactError::Solve(SolveError::BudgetSpent { .. })), "{fault}");
     // The pressures do not tell whether the teeth beside the contact touch.
-    let some = saw(150.0);
-    let doubtful = Contact::new(&Flat, &some).unwrap().solve(Control::Load(0.1)).unwrap();
+    let some = saw(170.0);
+    let doubtful = Contact::new(&Flat, &some).unwrap().solve(Control::Load(0.15)).unwrap();
     assert!(!doubtful.report().is_checked() && doubtful.limits_error() < Some(6e-4), "{doubtful}");
     let contact = Contact::new(&Flat, &coarse).unwrap();
     let solution = contact.solve(Control::HalfWidth(0.3)).unwrap();

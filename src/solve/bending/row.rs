@@ -113,6 +113,13 @@ fn widest_gap<T: Real>(contacts: &[Interval<T>], period: T) -> [T; 2] {
     gaps.fold(around, wider)
 }
 
+/// Returns the interval of some pressures, from the first to the last.
+pub(super) fn hull<T: Real>(spreads: &[Spread<T>]) -> Option<Interval<T>> {
+    let contacts = merged(spreads);
+    let [first, last] = [contacts.first()?, contacts.last()?];
+    Some(Interval { left: first.left, right: last.right })
+}
+
 /// Lists the intervals of pressures from left to right; those before and after a step overlap.
 pub(super) fn merged<T: Real>(spreads: &[Spread<T>]) -> Vec<Interval<T>> {
     let mut ends: Vec<Interval<T>> = spreads.iter().map(|spread| spread.on).collect();

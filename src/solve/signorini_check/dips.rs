@@ -3,7 +3,7 @@
 use super::outside::MAX_HALVES;
 use super::{MAX_POINTS, SignoriniCheck};
 use crate::gap::{Cost, Sampler};
-use crate::solution::{CLOSED_WIDTH, Integrals, Solved};
+use crate::solution::{CLOSED_WIDTH, Solved};
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{Fallible, Interval, Real, Side};
 
@@ -96,8 +96,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let allowed = self.allowed(sampler.highest, T::zero());
             // Here, there, and at the limit.
             cost.heights += 3 * sampler.cost.evaluations;
-            let integrals = || Ok(Integrals::new(loaded)?.up_to(MAX_POINTS));
-            match loaded.gap_by(x, integrals) {
+            match loaded.gap_up_to(MAX_POINTS, x) {
                 Ok(open) if open < -allowed => {
                     dips.extend(self.dip(fields, [x, open], &mut sampler)?);
                 }
