@@ -27,6 +27,9 @@ const MAX_ROUNDS: usize = 40;
 pub(super) const MAX_HALVES: usize = 8;
 const MAX_CHORDS: usize = 2;
 
+/// Spans of x, or places as spans without width.
+type Spans<T> = Vec<[T; 2]>;
+
 impl<T: Real> SignoriniCheck<'_, T> {
     /// Returns about the lowest place of the loaded gap between two places, given its slope; the gap
     /// falls at the first and rises at the second.
@@ -222,7 +225,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         fields: &ExteriorFields<T>,
         look: &Survey<T>,
         heights: impl Iterator<Item = LowPoint<T>>,
-        (dips, open, hidden): (&mut Vec<Dip<T>>, &mut Vec<[T; 2]>, &mut Vec<[T; 2]>),
+        (dips, open, hidden): (&mut Vec<Dip<T>>, &mut Spans<T>, &mut Spans<T>),
         cost: &mut Cost,
     ) -> Fallible<T, ()> {
         let (contacts, hull) = (self.contacts, self.found.interval);
