@@ -145,6 +145,38 @@ fn half(random: &mut Shares) -> Outline<f64> {
     drawn.corner(slope.max(0.0) + 0.03).line(4.0)
 }
 
+/// Bodies drawn with arcs, whose contacts were missed next to limits: behind a hollow corner, and
+/// at a corner with a curved flank on one side.
+#[test]
+fn drawn_bodies_have_all_their_contacts() {
+    let from = || Outline::from([0.0; 2]);
+    let right = from().arc(1669.2388696217415, 0.12147401992094332).corner(0.0);
+    let right = right.arc(404.5878249504983, 0.35173157265730937).corner(0.008163575460616936);
+    let right = right.arc(27.180985061400907, 0.5732076056981326).corner(0.003707041656956522);
+    let right = right.line(0.3700477608646358).corner(0.003403023125338611);
+    let right = right.arc(-70.26227202667825, 0.967933050449561).corner(0.03846276502308547);
+    let left = from().arc(966.7186145082451, 0.7664456245880891).corner(0.006684120463740123);
+    let left = left.line(0.0777118743782497).corner(0.034645896295178856);
+    let hollow = right.line(4.0).left(left.line(4.0));
+    let right = from().arc(2247.2833411030156, 0.3247622731585698).corner(-0.0017444941594612646);
+    let right = right.line(0.8515812907125168).corner(0.03);
+    let left = from().arc(150.54158251069805, 0.16622295207793109).corner(-0.02164404820200118);
+    let left = left.arc(471.31848758150744, 0.4558887608787793).corner(-0.023846603992818394);
+    let left = left.arc(113.99998744964195, 0.2746689929037843).corner(0.03);
+    let curved = right.line(4.0).left(left.line(4.0));
+    let cases = [
+        (hollow, [0.017_450_506, 0.017_626_773_835_670_04]),
+        (curved, [0.010_266_898_495_162_057, 0.010_267_576_317_353_196]),
+    ];
+    for (outline, loads) in cases {
+        let contact = on_flat(Box::new(outline.build().unwrap()));
+        for load in loads {
+            let solution = contact.solve(Control::Load(load)).unwrap();
+            assert!(solution.certify().is_ok(), "{load}: {solution}");
+        }
+    }
+}
+
 /// Loads next to those at which contacts are born or merge, at corners of either sign: the
 /// certificate accuses none. `SCENES=n` in the environment sets the number of bodies, in place of
 /// some that were accused or refused.

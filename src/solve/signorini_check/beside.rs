@@ -1,9 +1,9 @@
 //! Regions next to contacts, and what is known of the gap there.
 
 use super::SignoriniCheck;
-use crate::gap::{Sampler, Survey};
+use crate::gap::Survey;
 use crate::solve::exterior_field::ExteriorFields;
-use crate::{Fallible, Interval, Real, Side};
+use crate::{Interval, Real, Side};
 
 /// Share of a contact's half-width beyond its limits that is sampled with it: there the pressure
 /// inside shows that the gap opens.
@@ -20,11 +20,10 @@ pub(super) struct Beside<T> {
     /// Distances from the left and the right limit within which the gap opens by the pressure
     /// inside.
     pub near: [T; 2],
+    /// Those without a hollow corner, where one is nearer: behind it the gap may close again.
+    pub hollow: [T; 2],
     /// Distances from both within which nothing is known.
     pub blind: [T; 2],
-    /// If a hollow corner is that near: the distance from the limit within which the pressure
-    /// inside decides without one, and the slope of the gap at the limit.
-    pub hollow: [Option<[T; 2]>; 2],
     /// Height of the gap at this limit, its uncertainty, and the potential there.
     pub height: T,
     pub hidden: T,
@@ -43,20 +42,13 @@ impl<T: Real> Beside<T> {
 
     /// Tells whether part of a span in the region is next to a hollow corner at a limit.
     pub fn is_beside_hollow(&self, span: [T; 2]) -> bool {
-        span.iter().any(|&x| self.rate_at_limit(x).is_some())
+        let [left, right] = self.hollow;
+        span.iter().any(|&x| x - self.room.left < left || self.room.right - x < right)
     }
 
     /// Tells whether a place is closer to a corner that holds a limit than the limit is known.
     pub fn is_blind(&self, x: T) -> bool {
         x - self.room.left < self.blind[0] || self.room.right - x < self.blind[1]
-    }
-
-    /// Returns the slope of the displacement at the limit next to a place, if a hollow corner lies
-    /// there.
-    pub fn rate_at_limit(&self, x: T) -> Option<T> {
-        let away = [x - self.room.left, self.room.right - x];
-        let within = |([near, slope], away): ([T; 2], T)| (away < near).then_some(slope);
-        self.hollow.into_iter().zip(away).find_map(|(hollow, away)| within((hollow?, away)))
     }
 
     /// Tells whether a place is so close to a limit that the pressure inside decides about the gap.
@@ -83,7 +75,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
         fields: &ExteriorFields<T>,
         look: &Survey<T>,
         next: usize,
-    ) -> Fallible<T, Beside<T>> {
+    ) -> Beside<T> {
         let (contacts, [from, to]) = (self.contacts, self.gap.range());
         let (contact, side) = match next.checked_sub(1) {
             None => (0, Side::Left),
@@ -104,13 +96,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
             Some((next, Side::Left)).filter(|_| next < contacts.len()),
         ];
         let mut near = limits.map(|limit| limit.map_or(T::zero(), |_| sampled));
-        let mut hollow = [None; 2];
+        let mut hollow = [T::zero(); 2];
         for (i, limit) in limits.into_iter().enumerate() {
             let Some(away) = limit.and_then(|limit| self.hollow_beside(limit, sampled)) else {
                 continue;
             };
-            near[i] = away;
-            hollow[i] = self.slope_at(limit)?.map(|slope| [sampled, slope]);
+            (near[i], hollow[i]) = (away, sampled);
         }
         // A corner holds the limit in place of one just beyond it.
         let held = limits.map(|limit| limit.filter(|&limit| !self.is_free(limit)));
@@ -124,30 +115,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
             let rise = several.height(next, Side::Left) - height;
             left_out.max((rise - (fields.potential(room.right) - taken) / self.kappa).abs())
         });
-        Ok(Beside {
-            next,
-            edge,
-            room,
-            near,
-            hollow,
-            blind,
-            height,
-            hidden,
-            taken,
-            doubt,
-            at_corners,
-        })
+        Beside { next, edge, room, near, hollow, blind, height, hidden, taken, doubt, at_corners }
     }
 
     /// Tells whether a limit, given by the number of its contact and the side, is free.
     fn is_free(&self, (contact, side): (usize, Side)) -> bool {
         self.panels.free_of(contact, self.found.free)[side]
-    }
-
-    /// Returns the slope of the gap at a limit if that is free: the slope of the displacement.
-    fn slope_at(&self, limit: Option<(usize, Side)>) -> Fallible<T, Option<T>> {
-        let Some((i, side)) = limit.filter(|&limit| self.is_free(limit)) else { return Ok(None) };
-        Sampler::default().slope_from(self.gap, self.contacts[i][side], side.other()).map(Some)
     }
 
     /// Returns the distance from a limit to a hollow corner that lies beyond it, up to a distance:

@@ -6,6 +6,7 @@ use crate::gap::{Cost, Sampler};
 use crate::solution::{CLOSED_WIDTH, Solved};
 use crate::solve::exterior_field::ExteriorFields;
 use crate::{Fallible, Interval, Real, Side};
+use std::cell::Cell;
 
 /// Lowest place of a dip of the loaded gap in which bodies overlap, and the gap there.
 #[derive(Clone, Copy)]
@@ -81,7 +82,12 @@ impl<T: Real> SignoriniCheck<'_, T> {
     ) -> Fallible<T, ()> {
         let &Self { gap, engine: integrator, kappa, found, .. } = self;
         let loaded = Solved { gap, integrator, kappa, found };
-        let slope = |x| loaded.gap_slope(x).unwrap_or(T::of(f64::NAN));
+        let is_unknown = Cell::new(false);
+        let slope = |x| {
+            let slope = loaded.gap_slope(x).unwrap_or(T::of(f64::NAN));
+            is_unknown.set(is_unknown.get() || slope.partial_cmp(&slope).is_none());
+            slope
+        };
         for &[from, to] in spans {
             // Behind a hollow corner the place may be very close to it.
             let x = if from < to {
@@ -100,12 +106,13 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 Ok(open) if open < -allowed => {
                     dips.extend(self.dip(fields, [x, open], &mut sampler)?);
                 }
-                Ok(_) => {}
+                Ok(open) if open >= -allowed => {}
                 // The next one would take as long, and tell as little.
-                Err(_) => {
-                    *is_untold = true;
-                    break;
-                }
+                _ => is_unknown.set(true),
+            }
+            if is_unknown.get() {
+                *is_untold = true;
+                break;
             }
         }
         Ok(())

@@ -63,12 +63,6 @@ impl<T: Real> SignoriniCheck<'_, T> {
         fields.slope(x) / self.kappa
     }
 
-    /// Returns the slope of the displacement beside contacts. Next to a limit with a hollow corner
-    /// behind it the series does not tell it, and it is that of the gap at the limit.
-    fn rate_beside(&self, fields: &ExteriorFields<T>, from: &Beside<T>, x: T) -> T {
-        from.rate_at_limit(x).unwrap_or_else(|| self.rate(fields, x))
-    }
-
     /// Finds where the loaded bodies would overlap outside the contacts, up to their ends: the
     /// lowest place of each dip with the gap there, `[x, gap]`. Refines the survey if it cannot
     /// decide.
@@ -245,8 +239,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 continue;
             }
             let known = beside.filter(|beside| beside.next == next);
-            let known = known.map_or_else(|| self.beside(fields, look, next), Ok)?;
-            let from = *beside.insert(known);
+            let from = *beside.insert(known.unwrap_or_else(|| self.beside(fields, look, next)));
             // A span is no lower than its ends, or than where its tangents cross; no part of the
             // load acts from further away than the far end of the contacts.
             let ends = between.unwrap_or([[x, height, T::zero()]; 2]);
@@ -275,6 +268,7 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 }
             }
             is_parted |= between.is_none() && verdict == Verdict::Apart;
+            // Next to a limit the series tell no slope, and a hollow corner there none of the rest.
             let span = between.map(|ends| from.within(ends.map(|end| end[0])));
             let span = span.filter(|&span| from.is_beside_hollow(span)).unwrap_or([x; 2]);
             let is_open = verdict == Verdict::Unresolved || span[0] < span[1] && dips.is_empty();
@@ -304,14 +298,14 @@ impl<T: Real> SignoriniCheck<'_, T> {
             }
             return Some((x, verdict));
         };
-        let verdict = judged(self.floor(fields, from, [x, height], ends));
+        let verdict = judged(self.floor(fields, [x, height], ends));
         if verdict == Verdict::Apart {
             return Some((x, verdict));
         }
         // The height so far was a bound, or interpolated.
         let span = ends.map(|end| end[0]);
         let tilt = self.gap.tilt();
-        let slope = |x| look.slope(self.gap, x) + tilt - self.rate_beside(fields, from, x);
+        let slope = |x| look.slope(self.gap, x) + tilt - self.rate(fields, x);
         let x = Self::lowest_between(slope, MAX_HALVES, from.within(span));
         let verdict = if !from.is_near(x) {
             let height = self.height_at(look, x);
@@ -330,17 +324,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
     /// Returns a height at a place of a span that represents the lowest loaded gap in it. A
     /// potential is concave, and rises to both sides of the place no more than its tangent; the
     /// loaded gap is as low as the crossing of its tangents at both ends.
-    fn floor(
-        &self,
-        fields: &ExteriorFields<T>,
-        from: &Beside<T>,
-        [x, height]: [T; 2],
-        ends: [[T; 3]; 2],
-    ) -> T {
-        let rate_at = |x| self.rate_beside(fields, from, x);
-        let rate = rate_at(x);
-        let loaded =
-            |[end, height, slope]: [T; 3]| [end, height + rate * (x - end), slope - rate_at(end)];
+    fn floor(&self, fields: &ExteriorFields<T>, [x, height]: [T; 2], ends: [[T; 3]; 2]) -> T {
+        let rate = self.rate(fields, x);
+        let loaded = |[end, height, slope]: [T; 3]| {
+            [end, height + rate * (x - end), slope - self.rate(fields, end)]
+        };
         let [[left, before, falls], [right, after, rises]] = ends.map(loaded);
         let chord = (after - before) / (right - left);
         // At a limit the opening slope decides.
