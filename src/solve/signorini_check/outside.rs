@@ -31,7 +31,7 @@ const MAX_CHORDS: usize = 2;
 type Spans<T> = Vec<[T; 2]>;
 
 impl<T: Real> SignoriniCheck<'_, T> {
-    /// Returns about the lowest place of the loaded gap between two places, given its slope; the gap
+    /// Returns about the lowest place of the loaded gap between two places, by its slope; the gap
     /// falls at the first and rises at the second.
     pub(super) fn lowest_between(
         slope: impl Fn(T) -> T,

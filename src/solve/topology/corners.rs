@@ -39,8 +39,8 @@ const SHARP: f64 = 0.1;
 /// Distance beyond a corner within which the gap opens so far, as a share of the half-width.
 const SHORT_WALL: f64 = 1e-4;
 
-/// Share of a contact's half-width by which a limit leaves a corner inward, and from which one found
-/// free beside a corner is sought as free in the next set, too.
+/// Share of a contact's half-width by which a limit leaves a corner inward; and from which one
+/// found free beside a corner is sought as free in the next set, too.
 const STEP_INWARD: f64 = 0.01;
 
 /// Least ratio of distances d that are let go together.
