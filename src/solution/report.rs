@@ -77,7 +77,7 @@ pub enum Outcome {
     Unchecked,
     /// Solution too rough for any check to decide: a limit is uncertain by more than a 1600th of
     /// the half-width ([`Solution::limits_error`](crate::Solution::limits_error)), as from a search
-    /// that stops early or from a coarse quadrature; or the pressures do not tell whether the bodies
+    /// that stops early or from a coarse quadrature; or the pressures do not tell whether bodies
     /// overlap, as next to corners that are no breakpoints.
     Doubtful,
     /// Tension between the bodies inside a contact.
