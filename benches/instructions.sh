@@ -9,7 +9,9 @@
 # nothing.
 #
 # Each case of benches/embedding.rs, several.rs, default.rs and questions.rs, compiled as one in benches/counted.rs, is
-# run few and many times, and the difference divided, so that neither starting up nor making the bodies counts.
+# run few and many times, and the difference divided, so that neither starting up nor making the bodies counts. Both
+# numbers have as many digits: the length of the arguments moves the stack, and with it some 20 000 instructions of the
+# start.
 # Without AVX-512, which valgrind does not know:
 # RUSTFLAGS="-C target-cpu=native" may end in an illegal instruction.
 set -eu
@@ -39,7 +41,7 @@ counts() {
         for pieces in "$@"; do
             printf '%s\t%s' "$scalar" "$pieces"
             for case in cold load body moment turned P1 P100 P10k; do
-                few=3 many=33
+                few=03 many=33
                 [ "$case" = P10k ] && few=1 many=2
                 less=$(instructions embedding repeat "$case" "$scalar" "$pieces" "$few")
                 more=$(instructions embedding repeat "$case" "$scalar" "$pieces" "$many")
@@ -53,7 +55,7 @@ counts() {
     for scene in word one two ten rough; do
         printf '%s' "$scene"
         for start in cold warm; do
-            few=5 many=25
+            few=05 many=25
             [ "$scene" = rough ] && few=1 many=2
             less=$(instructions several repeat "$scene" "$start" "$few")
             more=$(instructions several repeat "$scene" "$start" "$many")
@@ -67,7 +69,7 @@ counts() {
         printf '%s' "$scene"
         for case in cold bare-cold next bare-next; do
             # An even number, as two loads take turns.
-            few=4 many=24
+            few=04 many=24
             less=$(instructions default repeat "$scene" "$case" "$few")
             more=$(instructions default repeat "$scene" "$case" "$many")
             printf '\t%s' $(((more - less) / (many - few)))
