@@ -49,7 +49,7 @@ impl<T: Real> Solved<'_, T> {
         self.gap_up_to(MAX_PANELS, x)
     }
 
-    /// Returns the same by integrals that are each given up after a number of panels.
+    /// Returns the distance by integrals that are given up after a number of panels.
     pub fn gap_up_to(&self, panels: usize, x: T) -> Fallible<T, T> {
         let x = self.gap.folded(x);
         let (edge, _) = self.nearest_edge(x)?;

@@ -361,8 +361,9 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
         }
         let was_one = !std::mem::replace(&mut self.is_checked, true);
         // Corners that hold a land are found only among any number of contacts.
-        if was_one && self.may_be_one && !self.spreads.is_empty() && !self.fills(&error) {
-            self.may_be_one = self.contact.single_interval;
+        let may_be_more = was_one && self.may_be_one && !self.contact.single_interval;
+        if may_be_more && !self.spreads.is_empty() && !self.fills(&error) {
+            self.may_be_one = false;
             return Ok(());
         }
         let [cut, _] = self.gap.range();

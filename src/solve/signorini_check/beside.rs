@@ -20,7 +20,8 @@ pub(super) struct Beside<T> {
     /// Distances from the left and the right limit within which the gap opens by the pressure
     /// inside.
     pub near: [T; 2],
-    /// Those without a hollow corner, where one is nearer: behind it the gap may close again.
+    /// Distances from both within which the pressures themselves are asked, as a hollow corner is
+    /// nearer: behind it the gap may close again.
     pub hollow: [T; 2],
     /// Distances from both within which nothing is known.
     pub blind: [T; 2],
@@ -132,7 +133,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
             Side::Right => self.gap.breakpoint_after(limit),
         };
         let corner = if self.gap.is_breakpoint(limit) { limit } else { next? };
-        let away = (corner - limit).abs();
-        (away <= within && self.gap.jump(corner)[0] < T::zero()).then_some(away)
+        let (away, opens) = ((corner - limit).abs(), self.gap.jump(corner)[0] >= T::zero());
+        // A jump that is no number may be one down.
+        (away <= within && !opens).then_some(away)
     }
 }

@@ -90,11 +90,8 @@ impl<T: Real> SignoriniCheck<'_, T> {
         };
         for &[from, to] in spans {
             // Behind a hollow corner the place may be very close to it.
-            let x = if from < to {
-                Self::lowest_between(slope, 3 * MAX_HALVES, [from, to])
-            } else {
-                from
-            };
+            let halves = 3 * MAX_HALVES;
+            let x = if from < to { Self::lowest_between(slope, halves, [from, to]) } else { from };
             let mut sampler = Sampler::default();
             if sampler.height(gap, x).is_err() {
                 continue;

@@ -268,10 +268,11 @@ impl<T: Real> SignoriniCheck<'_, T> {
                 }
             }
             is_parted |= between.is_none() && verdict == Verdict::Apart;
-            // Next to a limit the series tell no slope, and a hollow corner there none of the rest.
+            // Next to a limit the series do not tell the slope: a span beside a hollow corner there
+            // is left to the pressures.
             let span = between.map(|ends| from.within(ends.map(|end| end[0])));
             let span = span.filter(|&span| from.is_beside_hollow(span)).unwrap_or([x; 2]);
-            let is_open = verdict == Verdict::Unresolved || span[0] < span[1] && dips.is_empty();
+            let is_open = verdict == Verdict::Unresolved || span[0] < span[1];
             hidden.extend(is_open.then_some(span));
         }
         Ok(())
