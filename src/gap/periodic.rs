@@ -4,7 +4,7 @@
 //! cut, a place where the bodies are far apart.
 
 use super::repeated::Repeated;
-use super::{Gap, Sampler, Shape};
+use super::{Gap, Sampler, Shape, Surface};
 use crate::{Body, Cost, Fallible, InputError, Real, Side};
 use std::sync::Arc;
 
@@ -155,6 +155,16 @@ impl<T: Real> Gap<'_, T> {
     /// Tells whether the bodies repeat with a period.
     pub(crate) fn is_repeated(&self) -> bool {
         self.period.is_some()
+    }
+
+    /// Tells whether a body begins anew at a joint: its ends differ there by what [`SAME`] allows.
+    pub(crate) fn is_seam(&self, joint: T) -> bool {
+        let is_start = |period: T, surface: &Surface<'_, T>| {
+            let periods = (joint - surface.extent()[0]) / period;
+            (periods - periods.round()).abs() <= T::of(SAME)
+        };
+        let mut bodies = self.bodies.iter().filter(|surface| !surface.is_endless());
+        self.period.is_some_and(|period| bodies.any(|surface| is_start(period, surface)))
     }
 
     /// Returns the same place in the period at hand.

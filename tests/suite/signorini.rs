@@ -82,7 +82,6 @@ impl Series {
 
     fn of(on: Interval<f64>, count: usize, fill: &dyn Fn(&[f64], &mut [f64])) -> Self {
         let step = PI / (2 * count) as f64;
-        let cos: Vec<f64> = (0..4 * count).map(|i| (step * i as f64).cos()).collect();
         let half = 0.5 * (on.right - on.left);
         let angle = |i: usize| step * (2 * i + 1) as f64;
         let x: Vec<f64> = (0..count).map(|i| at_angle(on, angle(i))).collect();
@@ -93,15 +92,15 @@ impl Series {
         for (i, value) in values.iter_mut().enumerate() {
             *value *= half * angle(i).sin();
         }
-        let term = |k: usize| {
-            let (mut sum, mut place) = (0.0, k);
-            for value in &values {
-                sum += value * cos[place];
-                place = (place + 2 * k) % (4 * count);
-            }
-            sum * if k == 0 { 1.0 } else { 2.0 } / count as f64
+        // Every second value, there and back (Makhoul, *IEEE Trans. ASSP* 28, 1980, 27).
+        let there = (0..count).step_by(2);
+        let order = there.chain((0..count).rev().filter(|i| i % 2 == 1));
+        let sums = fourier(order.map(|i| [values[i], 0.0]).collect());
+        let term = |(k, [re, im]): (usize, [f64; 2])| {
+            let (sin, cos) = (step * k as f64).sin_cos();
+            (cos * re + sin * im) * if k == 0 { 1.0 } else { 2.0 } / count as f64
         };
-        let terms: Vec<f64> = (0..count).map(term).collect();
+        let terms: Vec<f64> = sums.into_iter().enumerate().map(term).collect();
         let last = (count - count / 8..count).map(|k| terms[k].abs() * PI / k as f64);
         Self { on, tail: last.sum(), terms, pressures: [least, largest] }
     }
@@ -112,9 +111,12 @@ impl Series {
 
     /// Returns `∫ P ln|x - s| ds` at an angle inside.
     fn inside(&self, angle: f64) -> f64 {
-        let sum: f64 = (1..self.terms.len())
-            .map(|k| self.terms[k] / k as f64 * (k as f64 * angle).cos())
-            .sum();
+        let ([mut cos, mut sin], (by_sin, by_cos)) = ([1.0, 0.0], angle.sin_cos());
+        let mut sum = 0.0;
+        for (k, term) in self.terms.iter().enumerate().skip(1) {
+            [cos, sin] = [cos * by_cos - sin * by_sin, cos * by_sin + sin * by_cos];
+            sum += term / k as f64 * cos;
+        }
         self.load() * (0.5 * (self.on.right - self.on.left) / 2.0).ln() - PI * sum
     }
 
@@ -147,6 +149,27 @@ impl Series {
         let places = 0..count;
         places.map(|i| value(i) * f(at_angle(self.on, angle(i)))).sum::<f64>() * PI / count as f64
     }
+}
+
+/// Returns the sums of `value exp(-2πi jk/n)` over all complex values, for each k; n is a power of
+/// two.
+fn fourier(values: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let count = values.len();
+    if count < 2 {
+        return values;
+    }
+    let half = |first: usize| fourier(values.iter().copied().skip(first).step_by(2).collect());
+    let [even, odd] = [half(0), half(1)];
+    let turned = odd.iter().enumerate().map(|(k, [re, im])| {
+        let (sin, cos) = (2.0 * PI * k as f64 / count as f64).sin_cos();
+        [cos * re + sin * im, cos * im - sin * re]
+    });
+    let turned: Vec<[f64; 2]> = turned.collect();
+    let both = |sign: f64| {
+        let pairs = even.iter().zip(&turned);
+        pairs.map(move |(even, odd)| [even[0] + sign * odd[0], even[1] + sign * odd[1]])
+    };
+    both(1.0).chain(both(-1.0)).collect()
 }
 
 fn at_angle(on: Interval<f64>, angle: f64) -> f64 {

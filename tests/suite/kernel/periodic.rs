@@ -41,6 +41,20 @@ fn steel_on_rigid(body: &Profile) -> Contact<'_, f64> {
 const ANYWHERE: References<f64> =
     References { x: 0.7, lower: Reference::Depth(1.0), upper: Reference::Depth(1.0) };
 
+/// A land whose period begins anew at a step of 2e-11 of its height, as drawn with a steep wall, in
+/// a contact that ends on a ramp.
+#[test]
+fn a_period_that_does_not_close_to_the_last_bit() {
+    let [closed, open] = [0.0, 6e-13].map(|step| {
+        let points = [[0.25, 0.0], [0.25 + 3e-8, 0.03], [0.65, 0.03], [0.75, step], [1.0, step]];
+        let body = polygon(&[&[[0.0, 0.0]], &points[..]].concat());
+        let contact = Contact::new(&Flat, &body).unwrap().kappa(1.0).period(1.0);
+        contact.solve(Control::Load(0.03)).unwrap().hull()
+    });
+    assert!((closed.left - 0.7153).abs() < 1e-3 && (closed.right - 1.25).abs() < 1e-12);
+    assert!((closed.left - open.left).abs() < 1e-10 && (closed.right - open.right).abs() < 1e-10);
+}
+
 #[test]
 fn one_contact_is_westergaards() {
     let d = 0.02;

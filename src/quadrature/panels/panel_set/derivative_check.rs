@@ -218,7 +218,8 @@ impl<T: Real> Rises<T> {
     }
 
     /// Refuses heights that contradict the slopes by more than their noise, measured at both places
-    /// after a contradiction. A joint between them with a step that is one by itself is named.
+    /// after a contradiction. A joint between them with a step that is one by itself is named, but
+    /// where a period begins anew.
     pub fn compare_beside_noise(
         self,
         gap: &Gap<'_, T>,
@@ -232,6 +233,10 @@ impl<T: Real> Rises<T> {
         // The height at a joint is that on its left.
         for x in std::iter::once(left).chain(gap.breakpoints(Interval { left, right })) {
             let by_heights = gap.jump(x)[1];
+            if gap.is_seam(x) {
+                known.open += by_heights.abs();
+                continue;
+            }
             Self { between: [x; 2], by_heights, by_slopes: T::zero(), ..known }.compare()?;
         }
         known.compare().map_err(|_| error)
