@@ -59,7 +59,7 @@ const MAX_CHANGES: usize = 400;
 const MAX_IN_VAIN: usize = 4;
 
 /// Largest sum of cells times steps over all linear systems of a search: half a minute at worst.
-const MAX_WORK: usize = 40_000_000;
+const MAX_WORK: usize = 10_000_000;
 
 /// Two bodies and a load.
 pub(super) struct Scene<'s, T: Real> {

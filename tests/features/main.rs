@@ -9,7 +9,6 @@ mod forms;
 mod formulas;
 
 mod approach;
-mod autodiff;
 mod derivatives;
 mod derivatives_several;
 mod finite_roller;

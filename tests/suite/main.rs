@@ -8,6 +8,9 @@ mod boundary_elements;
 mod common;
 #[path = "../common/forms.rs"]
 mod forms;
+#[cfg(feature = "autodiff")]
+#[path = "../common/formulas.rs"]
+mod formulas;
 #[path = "../common/integrals.rs"]
 mod integrals;
 #[allow(dead_code)]
@@ -23,6 +26,8 @@ mod tasks_bench;
 mod accuracy;
 mod apart;
 mod approach;
+#[cfg(feature = "autodiff")]
+mod autodiff;
 mod bad_input;
 mod births;
 mod certificate;
