@@ -99,7 +99,10 @@ impl<T: Real> Solution<'_, T> {
         }
         for side in Side::BOTH {
             let least = -found.zero_tolerance() * self.mean_pressure().abs();
-            if !found.adhesive[side] && found.strengths[side] < least {
+            // At a limit that was found free the strength is what is left of zero: just beyond a
+            // corner that is the rounding of x, magnified.
+            let is_held = !found.adhesive[side] && !found.free[side];
+            if is_held && found.strengths[side] < least {
                 let x = at(hull[side]);
                 write!(f, "\nthe bodies would have to pull at each other at x = {x}")?;
             }

@@ -2,6 +2,7 @@
 #![allow(missing_docs)]
 
 use crate::common::{Profile, join, on_flat, quartic};
+use crate::corners::polygon;
 use linecontact::profile::{Ellipse, Outline, Parabola, Placed, Placement};
 use linecontact::stress::Stress;
 use linecontact::{
@@ -193,6 +194,14 @@ fn bodies_that_would_have_to_pull_are_told_of_unless_they_adhere() {
     assert!(solution.edge_singularities().into_iter().all(|strength| strength < 0.0));
     let text = solution.to_string();
     assert!(!text.contains(pull), "{text}");
+
+    // Limits just beyond the corners of a pad, on its ramps.
+    let pad = polygon(&[[0.0, 0.2], [1.0, 0.0], [1.7, 0.0], [2.7, 0.2]]);
+    let contact = Contact::new(&Flat, &*pad).unwrap().contact_modulus(115e3);
+    for load in [0.3, 1.0, 10.0] {
+        let text = contact.solve(Control::Load(load)).unwrap().to_string();
+        assert!(!text.contains(pull), "{load}: {text}");
+    }
 }
 
 /// P is proportional to (L²/2 - 0.1 + x²) sqrt(L² - x²): nearest to zero in the middle.

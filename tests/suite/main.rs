@@ -91,6 +91,7 @@ mod readme;
 mod reference_tables;
 mod references_f32;
 mod resolution;
+mod rows_of_lands;
 mod safeguards;
 mod saturated;
 #[cfg(feature = "scene")]

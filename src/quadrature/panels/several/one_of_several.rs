@@ -170,7 +170,7 @@ impl<T: Real> OneOfSeveral<T> {
     /// one panel is taken if it is almost enough.
     pub fn set(&mut self, weight: impl Fn([T; WIDE]) -> [T; WIDE], is_trial: bool) {
         let (on, tolerance) = (self.on, self.panel_set.tolerance);
-        if !(is_trial && self.panel_set.panels.len() >= MANY && self.on_one_panel(&weight)) {
+        if !(is_trial && self.may_be_one_panel() && self.on_one_panel(&weight)) {
             self.panels.clear();
             for (panel, x) in spans(within(&self.panel_set.panels, on), on) {
                 self.waiting.push((x, 0));
@@ -199,6 +199,19 @@ impl<T: Real> OneOfSeveral<T> {
             self.far.set(&self.panels, on, Seen::Outside);
             self.far.cosines()
         });
+    }
+
+    /// Tells whether one panel would spare many, and have a node in each: between two nodes a fillet
+    /// at the end of a flat would not be seen.
+    fn may_be_one_panel(&self) -> bool {
+        let (on, step) = (self.on, T::pi() / T::count(MAX_SIZE));
+        let has_node = |panel: &Panel<T>| {
+            let [from, to] = [panel.x[0].max(on.left), panel.x[1].min(on.right)];
+            let x = T::of(0.5) * (from + to);
+            to - from >= step * ((x - on.left) * (on.right - x)).sqrt()
+        };
+        let panels = &self.panel_set.panels;
+        panels.len() >= MANY && within(panels, on).iter().all(has_node)
     }
 
     /// Multiplies the slope by a weight on one panel; tells whether that is almost enough.
