@@ -26,7 +26,7 @@
 
 use super::near_far_sum::{NearFarSum, Seen};
 use super::panel::within;
-use super::several::Terms;
+use super::several::{Middle, Terms};
 use super::{LoadCase, PanelIntegrator};
 use crate::{Ends, Interval, Real};
 use nalgebra::Complex;
@@ -43,8 +43,8 @@ const RADIUS: f64 = 1.0 / 64.0;
 /// Contacts with their panels, as seen from anywhere in the plane.
 pub(crate) struct CauchyTransform<T> {
     pub(super) contacts: Vec<(Interval<T>, NearFarSum<T>)>,
-    /// Zero of p in each gap, if it has one; its pole, if there are more corners than contacts.
-    pub(super) middles: Vec<Option<T>>,
+    /// Zero or pole of p in each gap, if it has one.
+    pub(super) middles: Vec<Option<Middle<T>>>,
     /// Limits that are held at corners, where S has an inverse root.
     pub(super) corners: Vec<T>,
     /// Terms of V besides the integrals.
@@ -99,11 +99,11 @@ impl<T: Real> CauchyTransform<T> {
         }
         let place = |t: T| Complex::new((x - t) * by_width, y);
         let gap = self.contacts.partition_point(|(on, _)| on.right < x).wrapping_sub(1);
-        let Some(&Some(zero)) = self.middles.get(gap) else { return self.off_zeros(&place, y) };
+        let Some(&Some(middle)) = self.middles.get(gap) else { return self.off_zeros(&place, y) };
         // p and V vanish together, or are infinite.
         let radius = T::of(RADIUS) * (self.contacts[gap + 1].0.left - self.contacts[gap].0.right);
         let radius = radius * by_width;
-        if length(place(zero)) > T::of(0.5) * radius {
+        if length(place(middle.place())) > T::of(0.5) * radius {
             return self.off_zeros(&place, y);
         }
         let mut mean = [Complex::new(T::zero(), T::zero()); 2];
@@ -137,11 +137,11 @@ impl<T: Real> CauchyTransform<T> {
             (factor, power) = (factor * roots[0] * roots[1], power + 1);
             rate += (inverse(ends[0]) + inverse(ends[1])) * T::of(0.5);
             match self.middles.get(i) {
-                Some(&Some(pole)) if self.corners.len() > self.contacts.len() => {
+                Some(&Some(Middle::Pole(pole))) => {
                     let by = place(pole);
                     (factor, rate, power) = (factor * by, rate + inverse(by), power + 1);
                 }
-                Some(&Some(zero)) => {
+                Some(&Some(Middle::Zero(zero))) => {
                     let by = inverse(place(zero));
                     (factor, rate, power) = (factor * by, rate - by, power - 1);
                 }

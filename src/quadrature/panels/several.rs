@@ -63,6 +63,7 @@ pub(crate) use load_response::LoadResponse;
 use one_of_several::OneOfSeveral;
 pub(crate) use system::System;
 pub(super) use terms::Terms;
+pub(super) use weight::Middle;
 use weight::Weight;
 
 /// Least half of a gap, in half-widths of the contact next to it, for a trial.
@@ -191,7 +192,7 @@ impl<T: Real> Several<T> {
 
     /// Returns the number of poles of p.
     pub fn poles(&self) -> usize {
-        self.weight.poles()
+        self.weight.poles().count()
     }
 
     /// Returns the limits of each contact that are held at corners.

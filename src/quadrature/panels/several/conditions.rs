@@ -75,17 +75,16 @@ impl<T: Real> Several<T> {
     fn balance(&self, load: T, system: &mut System<T>) {
         let (zero, one, per_pi) = (T::zero(), T::one(), -T::frac_1_pi());
         let (inverse, free) = (self.weight.is_inverse(), self.weight.corners() == 0);
-        for (k, x) in self.weight.numbered() {
+        let square = |(k, x): (usize, T)| {
             let ends = [x - self.parts[k].on.right, self.parts[k + 1].on.left - x];
-            let square = self.weight.in_gap(k, x, ends).powi(2);
-            if inverse {
-                system.poles.of_p.push([x, square]);
-                continue;
-            }
+            self.weight.in_gap(k, x, ends).powi(2)
+        };
+        system.poles.of_p.extend(self.weight.poles().map(|pole| [pole.1, square(pole)]));
+        for (k, x) in self.weight.zeros() {
             system.poles.at.push(x);
-            system.poles.squares.push(square);
+            system.poles.squares.push(square((k, x)));
             let share = |on: Interval<T>| one / (x - on.right).abs().min((x - on.left).abs());
-            let value = self.in_gap(&system.far, k, x, None);
+            let value = self.in_gap(&system.far, k, x, None) + self.terms.at(x);
             system.add(value, self.moments_error(share));
         }
         system.poles.at.extend(self.weight.held_limits());
@@ -101,7 +100,8 @@ impl<T: Real> Several<T> {
         }
         system.rows.resize(n, if free { zero } else { per_pi });
         system.rows.resize(2 * n, zero);
-        let (mut borne, mut error) = (total, self.moments_error(|_| one));
+        let by_terms = self.terms.residues(centre, 0) * per_pi;
+        let (mut borne, mut error) = (total + by_terms, self.moments_error(|_| one));
         if let Some(centre) = system.poles.centre {
             system.add(T::pi() * total, error);
             system.rows[n - 1] = per_pi;
@@ -112,22 +112,32 @@ impl<T: Real> Several<T> {
             system.load_row += 1;
         }
         system.add(borne - load, error * T::frac_1_pi());
+        self.vanish_at_poles(system);
     }
 
-    /// Adds the conditions on the constants with more corners than contacts. The terms of V bear
-    /// the load.
+    /// Adds the conditions on the constants with more corners than contacts. The constant of V
+    /// bears the load.
     fn bear_by_terms(&self, about: T, system: &mut System<T>) {
-        let (zero, one) = (T::zero(), T::one());
+        let (zero, one, per_pi) = (T::zero(), T::one(), T::frac_1_pi());
         let System { poles, rows, .. } = &mut *system;
-        let mut add = |by: &dyn Fn(T) -> T| {
-            rows.extend(poles.at.iter().map(|&at| by(at)));
-            rows.resize(rows.len() + poles.at.len(), zero);
-        };
-        add(&|z| (about - z) * T::frac_1_pi());
-        add(&|_| one);
-        poles.of_p.iter().for_each(|&[x, _]| add(&|z| one / (x - z)));
-        for _ in 0..2 + system.poles.of_p.len() {
+        rows.extend(poles.at.iter().map(|&at| (about - at) * per_pi));
+        rows.extend(poles.squares.iter().map(|&square| square * per_pi));
+        rows.resize(rows.len() + poles.count(), one);
+        rows.resize(rows.len() + poles.count(), zero);
+        for _ in 0..2 {
             system.add(zero, zero);
+        }
+        self.vanish_at_poles(system);
+    }
+
+    /// Adds the conditions that Q vanishes at the poles of p.
+    fn vanish_at_poles(&self, system: &mut System<T>) {
+        for i in 0..system.poles.of_p.len() {
+            let System { poles, rows, .. } = &mut *system;
+            let first = rows.len();
+            rows.resize(first + 2 * poles.count(), T::zero());
+            poles.add(poles.of_p[i][0], T::one(), &mut rows[first..]);
+            system.add(T::zero(), T::zero());
         }
     }
 
@@ -135,17 +145,21 @@ impl<T: Real> Several<T> {
     /// that is no `p/S`. `about` is near the contacts.
     fn polynomial(&self, about: T) -> Terms<T> {
         let (zero, one) = (T::zero(), T::one());
-        if !self.weight.is_inverse() {
-            let constant = if self.weight.corners() == 0 { zero } else { one };
-            return Terms { about, by_power: [constant, zero], poles: Vec::new() };
-        }
-        let held: Vec<_> = self.weight.held_limits().collect();
         let residue = |(k, x): (usize, T)| {
             let ends = [x - self.parts[k].on.right, self.parts[k + 1].on.left - x];
             (k, x, one / self.weight.in_gap(k, x, ends))
         };
-        let poles = self.weight.numbered().map(residue).collect();
-        Terms { about, by_power: [self.afar(&held, about)[0], one], poles }
+        let poles = self.weight.poles().map(residue).collect();
+        let by_power = match (self.weight.is_inverse(), self.weight.corners()) {
+            (true, _) => {
+                let zeros = self.weight.zeros().map(|(_, zero)| zero);
+                let at: Vec<_> = zeros.chain(self.weight.held_limits()).collect();
+                [self.afar(&at, about)[0], one]
+            }
+            (false, 0) => [zero; 2],
+            (false, _) => [one, zero],
+        };
+        Terms { about, by_power, poles }
     }
 
     /// Adds the condition that a gap closes at both ends.
@@ -175,10 +189,14 @@ impl<T: Real> Several<T> {
             } else {
                 system.poles.add(x, by_constants, &mut row);
             }
-            match own {
-                Some(_) => by_own -= scale / (away * pi),
-                None => by_tilt -= scale * system.polynomial.in_gap(k, x),
-            }
+            by_tilt -= scale
+                * match own {
+                    Some((_, zero)) => {
+                        by_own -= scale / (away * pi);
+                        system.polynomial.chord([zero, x])
+                    }
+                    None => system.polynomial.in_gap(k, x),
+                };
         });
         if let Some((zero, _)) = own {
             row[system.poles.count() + zero] += by_own;
@@ -276,7 +294,7 @@ impl<T: Real> Several<T> {
     /// divided by the distance from that zero; V times the distance from a pole of p; or V itself.
     pub(super) fn without_zero(&self, k: usize, system: &System<T>, x: T, value: T) -> T {
         if let Some((i, zero)) = self.weight.zero(k) {
-            return (value - system.residual[i]) / (x - zero);
+            return (value + self.terms.at(x) - system.residual[i]) / (x - zero);
         }
         let away = self.weight.pole(k).map_or(T::one(), |pole| x - pole);
         value * away + self.terms.in_gap(k, x)
@@ -317,8 +335,7 @@ impl<T: Real> Several<T> {
         let half = T::of(0.5);
         let limits = self.contacts().iter().flat_map(|on| [(on.left, half), (on.right, half)]);
         let all = limits.chain(poles.iter().map(|&x| (x, -T::one())));
-        let of_p = self.weight.numbered().filter(|_| self.weight.is_inverse());
-        let all = all.chain(of_p.map(|(_, x)| (x, T::one())));
+        let all = all.chain(self.weight.poles().map(|(_, x)| (x, T::one())));
         let [first, second] = all.fold([T::zero(); 2], |[first, second], (x, share)| {
             let x = x - about;
             [first + share * x, second + share * half * x * x]
@@ -342,6 +359,7 @@ impl<T: Real> Several<T> {
     ///
     /// ```text
     /// M = (1/π) ∫ w p q (x - x₀) g ds - ρ₁ F = 0
+    /// with corners (1/π) ∫ w p (x - x₀) g ds + Σ c (μ - x₀) - ρ₁ F
     /// with more corners than contacts (1/π) ∫ w p g ds + Σ c - ρ₁ F
     /// by a limit e: (e - x₀)² V(e)/2π, with corners (e - x₀) V(e)/2π, with more V(e)/2π
     /// ```
@@ -357,18 +375,23 @@ impl<T: Real> Several<T> {
         others[gaps..].copy_from_slice(&system.by_tilt);
         let no_corners = self.weight.corners() == 0;
         let zeros = system.load_row - usize::from(no_corners);
-        others[if no_corners { zeros..zeros + 1 } else { 0..zeros }].fill(pi);
+        let by_zeros = self.weight.zeros().map(|(_, x)| pi * system.polynomial.at(x));
+        others.iter_mut().zip(by_zeros).for_each(|(other, by)| *other = by);
+        if no_corners {
+            others[zeros] = pi;
+        }
         if !inverse {
-            others[system.load_row] = self.afar(&system.poles.at, centre)[0];
+            let by_terms = system.polynomial.residues(centre, 0);
+            others[system.load_row] = self.afar(&system.poles.at, centre)[0] - by_terms;
         }
         let [first, mut by_unknown] = self.afar(&system.poles.at, at);
-        let mut borne = self.powers(at)[usize::from(no_corners)];
+        let mut borne = match inverse {
+            true => self.sum(|part| part.moments.m0),
+            false => self.powers(at)[usize::from(no_corners)],
+        };
         let power = if no_corners { 2 } else { 1 - i32::from(inverse) };
-        if inverse {
-            let sum = |terms: &Terms<T>| terms.poles.iter().fold(zero, |sum, &(.., by)| sum + by);
-            borne = self.sum(|part| part.moments.m0) + sum(&self.terms) * -T::frac_1_pi();
-            by_unknown -= sum(&system.polynomial);
-        }
+        borne -= self.terms.residues(at, power) * T::frac_1_pi();
+        by_unknown -= system.polynomial.residues(at, power);
         let reach = (self.hull().left - at).abs().max((self.hull().right - at).abs());
         let error = self.sum(|part| part.moments.error) * reach.powi(power);
         system.add(borne - first * load, error);
@@ -377,7 +400,7 @@ impl<T: Real> Several<T> {
             half * away.powi(power) * system.at_ends[i] / pi
         };
         let mut by_limits: Vec<_> = system.free.iter().map(by_limit).collect();
-        by_limits.resize(by_limits.len() + system.poles.of_p.len(), T::one());
+        by_limits.extend(system.poles.of_p.iter().map(|&[x, _]| (x - at).powi(power)));
         system.besides = Some(Besides { by_limits, by_unknown, others });
     }
 }

@@ -17,7 +17,7 @@ impl<T: Real> Several<T> {
     /// Sets up the conditions of contacts with right limits for a load, given as F/κ: open are only
     /// the residues at the poles of p, on which the conditions depend linearly.
     pub fn bear(&mut self, load: T, system: &mut System<T>) {
-        let mut residues = vec![T::zero(); self.weight.poles()];
+        let mut residues = vec![T::zero(); self.poles()];
         self.carry(load, &residues);
         self.system(load, system);
         if !residues.is_empty() && system.factor() {

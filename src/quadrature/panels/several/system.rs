@@ -19,13 +19,16 @@
 //! of the load:  -(C + 2 ρ₁ D)/π without corners, with ρ₁ of Several::afar, else -Σ C/π
 //! ```
 //!
-//! With n > N corners W has the further terms `-π δc/(x - ν)`, and at infinity the step of the load
-//! F, `-π δF`. There are no conditions of balance, and Q is `Σ C_z/(x - z)`, with n constants for
-//! the N - 1 gaps and
+//! With poles μ of p W has the further terms `-π δc/(x - μ)`, with as many conditions more
 //!
 //! ```text
-//! Q(ν) = 0 at each pole of p        Σ C_z = 0        -Σ C_z (z - x₀)/π = δF
-//! δc = -Q'(ν)/(π A)                                  A = S²/p_k² at ν
+//! Q(μ) = 0        δc = -Q'(μ)/(π A)        A = S²/p_k² at μ
+//! ```
+//!
+//! and with n > N corners at infinity the step of the load F, `-π δF`:
+//!
+//! ```text
+//! Σ C = 0        -(Σ C_z (z - x₀) + Σ C_k (ν_k - x₀) - Σ V(ν_k) A_k)/π = δF
 //! ```
 //!
 //! A gap acts on another by the inverse square of their distance: next to its pole, `p/S` is odd.
@@ -99,11 +102,15 @@ impl<T: Real> Poles<T> {
         self.at.len() + usize::from(self.centre.is_some())
     }
 
-    /// Returns the step of the residue at a pole of p, from the constants.
-    fn residue(&self, [x, square]: [T; 2], constants: &[T]) -> T {
-        let both = self.at.iter().zip(constants);
-        both.fold(T::zero(), |sum, (&at, &constant)| sum + constant / (x - at).powi(2))
-            / (T::pi() * square)
+    /// Returns the step of the residue at a pole of p, from the constants and the known part of Q.
+    fn residue(&self, [x, square_at_pole]: [T; 2], known: &[T]) -> T {
+        let (constants, values) = known.split_at(self.count());
+        let poles = self.at.iter().zip(&self.squares).zip(constants.iter().zip(values));
+        let fall = poles.fold(T::zero(), |sum, ((&at, &square), (&constant, &value))| {
+            let away = T::one() / (x - at);
+            sum + away * away * (constant - (square + square) * value * away)
+        });
+        fall / (T::pi() * square_at_pole)
     }
 
     /// Adds a share of Q at a place to a row.

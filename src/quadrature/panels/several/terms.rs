@@ -7,8 +7,8 @@ use nalgebra::Complex;
 
 /// Sum of a linear function and of poles in gaps.
 ///
-/// With more corners than contacts V has the terms `-π (F + Σ c/(x - ν))` over the poles ν of p:
-/// one over p times a polynomial whose leading coefficient is `-π F`.
+/// V has the terms `-π Σ c/(x - μ)` over the poles μ of p, and with more corners than contacts
+/// `-π F`.
 #[derive(Clone, Debug)]
 pub(in super::super) struct Terms<T> {
     /// Place about which the linear function is written, its value there, and its slope.
@@ -32,6 +32,18 @@ impl<T: Real> Terms<T> {
     pub fn in_gap(&self, k: usize, x: T) -> T {
         let own = self.poles.iter().find(|&&(gap, ..)| gap == k);
         own.map_or(self.at(x), |&(_, pole, residue)| self.beside(k, x) * (x - pole) + residue)
+    }
+
+    /// Returns the slope of the chord from a place, in a gap without a pole, to another.
+    pub fn chord(&self, [from, to]: [T; 2]) -> T {
+        self.poles.iter().fold(self.by_power[1], |sum, &(_, pole, residue)| {
+            sum - residue / ((from - pole) * (to - pole))
+        })
+    }
+
+    /// Returns the sum of the residues, each times a power of the distance of its pole from a place.
+    pub fn residues(&self, from: T, power: i32) -> T {
+        self.poles.iter().fold(T::zero(), |sum, &(_, x, by)| sum + by * (x - from).powi(power))
     }
 
     /// Returns the sum times a width and its derivative at a place in the plane, given the
@@ -59,11 +71,9 @@ impl<T: Real> Terms<T> {
 impl<T: Real> Weight<T> {
     /// Returns the terms of V for a load, given as F/κ, and the residues c at the poles of p.
     pub(super) fn terms(&self, load: T, residues: &[T]) -> Terms<T> {
-        if !self.is_inverse() {
-            return Terms::none();
-        }
         let pole = |((k, x), &residue): ((usize, T), &T)| (k, x, -T::pi() * residue);
-        let poles = self.numbered().zip(residues).map(pole).collect();
-        Terms { about: T::zero(), by_power: [-T::pi() * load, T::zero()], poles }
+        let poles = self.poles().zip(residues).map(pole).collect();
+        let constant = if self.is_inverse() { -T::pi() * load } else { T::zero() };
+        Terms { about: T::zero(), by_power: [constant, T::zero()], poles }
     }
 }

@@ -9,13 +9,28 @@
 //!
 //! with the sign of `(-1)^(number of contacts to the right)` in the root. For many contacts w alone
 //! overflows; `w p` does not: with zeros ν in the middle of gaps, each factor of S has one of p
-//! close by, and `w p` keeps its sign over a contact. Without corners every gap has a zero. With n
-//! corners N less n gaps have one. More corners than contacts leave *poles* instead, n less N + 1:
-//! p is one over the product, and each ν lies in a gap between two corners, so that it stays.
+//! close by, and `w p` keeps its sign over a contact. Without corners every gap has a zero. Among
+//! more corners than contacts p has *poles* μ instead, each in a gap between two corners, so that
+//! it stays: `p = Π (x - ν)/Π (x - μ)`. With n corners there are N less n more zeros than poles, and
+//! one more if n exceeds N.
 
 use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real, Side};
 use std::ops::Range;
+
+/// Zero or pole of p in a gap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in super::super) enum Middle<T> {
+    Zero(T),
+    Pole(T),
+}
+
+impl<T: Copy> Middle<T> {
+    pub fn place(self) -> T {
+        let (Self::Zero(x) | Self::Pole(x)) = self;
+        x
+    }
+}
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Weight<T> {
@@ -28,9 +43,7 @@ pub(super) struct Weight<T> {
     /// Number of them.
     corners: usize,
     /// Zero or pole of p in each gap, if it has one.
-    middles: Vec<Option<T>>,
-    /// Number of zeros or poles before each gap.
-    before: Vec<usize>,
+    middles: Vec<Option<Middle<T>>>,
     /// Flags: `w p` changes its sign an odd number of times to the right of a contact.
     flips: Vec<bool>,
 }
@@ -38,8 +51,8 @@ pub(super) struct Weight<T> {
 impl<T: Real> Weight<T> {
     pub fn new() -> Self {
         let (far, held) = (FarField::new(Combine::Product), Vec::new());
-        let (on, middles, before, flips) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { on, far, held, corners: 0, middles, before, flips }
+        let (on, middles, flips) = (Vec::new(), Vec::new(), Vec::new());
+        Self { on, far, held, corners: 0, middles, flips }
     }
 
     /// Sets the contacts, and the limits of each that are held.
@@ -68,37 +81,40 @@ impl<T: Real> Weight<T> {
     }
 
     /// Puts zeros or poles into gaps, next to contacts with few or with many corners: far away the
-    /// factors of neighbours then cancel.
+    /// factors of neighbours then cancel. What is known of one contact is known to rounding of the
+    /// largest `w p`.
     fn choose_middles(&mut self) {
-        let (half, gaps) = (T::of(0.5), self.on.len() - 1);
+        let gaps = self.on.len() - 1;
         let is_fixed = |k: usize| self.held[k].right && self.held[k + 1].left;
-        let inverse = self.is_inverse();
-        let may = |k: &usize| !inverse || is_fixed(*k);
-        let mut needed = match (inverse, self.corners) {
-            (true, n) => n - self.on.len() - 1,
-            (false, 0) => gaps,
-            (false, n) => self.on.len() - n,
-        };
-        let mut places = (0..gaps).filter(may).count();
-        // Corners and zeros so far, less poles.
+        // Corners and zeros so far, less poles and contacts.
         let mut have = 0;
-        self.middles.clear();
-        self.before.clear();
-        let all = needed;
+        let mut signs: Vec<i32> = Vec::with_capacity(gaps);
         for k in 0..gaps {
-            have += count(self.held[k]);
-            let serves = may(&k);
-            let wants = if inverse { have > k + 1 } else { have < k + 1 };
-            self.before.push(all - needed);
-            let takes = serves && needed > 0 && (wants || needed == places);
-            places -= usize::from(serves);
-            if takes {
-                needed -= 1;
-                have = if inverse { have - 1 } else { have + 1 };
-            }
-            let middle = half * self.on[k].right + half * self.on[k + 1].left;
-            self.middles.push(takes.then_some(middle));
+            have += count(self.held[k]) as i32 - 1;
+            let sign = if have > 0 { -i32::from(is_fixed(k)) } else { -have.signum() };
+            have += sign;
+            signs.push(sign);
         }
+        have += count(self.held[gaps]) as i32 - 1;
+        let wanted = match self.corners {
+            0 => -1,
+            n => i32::from(n > self.on.len()),
+        };
+        for k in (0..gaps).rev() {
+            let least = -i32::from(is_fixed(k));
+            let by = (wanted - have).clamp(least - signs[k], 1 - signs[k]);
+            (signs[k], have) = (signs[k] + by, have + by);
+        }
+        self.middles.clear();
+        self.middles.extend((0..gaps).map(|k| {
+            let half = T::of(0.5);
+            let middle = half * self.on[k].right + half * self.on[k + 1].left;
+            match signs[k] {
+                0 => None,
+                1 => Some(Middle::Zero(middle)),
+                _ => Some(Middle::Pole(middle)),
+            }
+        }));
     }
 
     pub fn contacts(&self) -> &[Interval<T>] {
@@ -122,34 +138,42 @@ impl<T: Real> Weight<T> {
         })
     }
 
-    /// Tells whether there are more corners than contacts: p has poles.
+    /// Tells whether there are more corners than contacts: V has a constant, which bears the load.
     pub fn is_inverse(&self) -> bool {
         self.corners > self.on.len()
     }
 
     /// Returns the zero or pole of p in each gap, if it has one.
-    pub fn middles(&self) -> &[Option<T>] {
+    pub fn middles(&self) -> &[Option<Middle<T>>] {
         &self.middles
     }
 
     /// Returns the zero of p in a gap, and its number.
     pub fn zero(&self, k: usize) -> Option<(usize, T)> {
-        self.middles[k].filter(|_| !self.is_inverse()).map(|zero| (self.before[k], zero))
-    }
-
-    /// Returns the number of poles of p.
-    pub fn poles(&self) -> usize {
-        if self.is_inverse() { self.corners - self.on.len() - 1 } else { 0 }
+        let Some(Middle::Zero(zero)) = self.middles[k] else { return None };
+        let is_zero = |middle: &&Option<Middle<T>>| matches!(middle, Some(Middle::Zero(_)));
+        Some((self.middles[..k].iter().filter(is_zero).count(), zero))
     }
 
     /// Returns the pole of p in a gap.
     pub fn pole(&self, k: usize) -> Option<T> {
-        self.middles[k].filter(|_| self.is_inverse())
+        match self.middles[k] {
+            Some(Middle::Pole(pole)) => Some(pole),
+            _ => None,
+        }
     }
 
-    /// Returns the zeros or poles of p, each with the number of its gap.
-    pub fn numbered(&self) -> impl Iterator<Item = (usize, T)> {
-        self.middles.iter().enumerate().filter_map(|(k, &middle)| Some((k, middle?)))
+    /// Returns the zeros of p, each with the number of its gap.
+    pub fn zeros(&self) -> impl Iterator<Item = (usize, T)> {
+        self.middles.iter().enumerate().filter_map(|(k, &middle)| match middle {
+            Some(Middle::Zero(zero)) => Some((k, zero)),
+            _ => None,
+        })
+    }
+
+    /// Returns the poles of p, each with the number of its gap.
+    pub fn poles(&self) -> impl Iterator<Item = (usize, T)> {
+        (0..self.middles.len()).filter_map(|k| Some((k, self.pole(k)?)))
     }
 
     /// Returns the number of the first or the last contact.
@@ -195,9 +219,12 @@ impl<T: Real> Weight<T> {
         let middle = gap.and_then(|gap| *self.middles.get(gap)?);
         for (square, &x) in squares.iter_mut().zip(x) {
             let distances = [x - on.left, x - on.right];
-            let mut factor = middle.map_or(T::one(), |middle| x - middle);
+            let mut factor = match middle {
+                None => T::one(),
+                Some(Middle::Zero(zero)) => x - zero,
+                Some(Middle::Pole(pole)) => T::one() / (x - pole),
+            };
             if self.corners > 0 {
-                factor = if self.is_inverse() { T::one() / factor } else { factor };
                 factor *= from_held(self.held[k], distances);
             }
             *square *= factor * factor / (distances[0] * distances[1]);
