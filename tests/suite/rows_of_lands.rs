@@ -92,13 +92,17 @@ impl Row {
     }
 }
 
-/// From eight lands on, the first steps to their limits are taken on one panel for each: between its
-/// nodes a small fillet was not seen. `SCENES=n` in the environment sets the number of rows.
+/// From eight lands on, the first steps to their limits are taken on one panel for each: a small
+/// fillet between its nodes was not seen. And where some limits are held at corners and others are
+/// free beside them, the two halves of a row bore unlike loads. `SCENES=n` in the environment sets
+/// the number of rows.
 #[test]
 fn rows_of_lands_are_solved_and_certified() {
-    let scenes = std::env::var("SCENES").map_or(100, |count| count.parse().unwrap());
+    let scenes = std::env::var("SCENES").ok().map(|count| count.parse().unwrap());
+    let seeds: Vec<u64> =
+        scenes.map_or((0..100).chain([286, 330, 414, 567]).collect(), |count| (0..count).collect());
     let (mut solved, mut faults) = (0, Vec::new());
-    for seed in 0..scenes {
+    for &seed in &seeds {
         let mut random = Shares(seed);
         random.between(0.0, 1.0);
         let row = Row::new(&mut random);
@@ -122,13 +126,13 @@ fn rows_of_lands_are_solved_and_certified() {
         if row.crown[0].is_infinite() && loads.len() == row.count {
             let (sum, both) = (loads.iter().sum::<f64>(), loads.iter().zip(loads.iter().rev()));
             let off = both.fold(0.0, |most: f64, (one, other)| most.max((one - other).abs()));
-            if (sum / load - 1.0).abs() > 1e-7 || off > 1e-6 * load {
+            if (sum / load - 1.0).abs() > 2e-8 || off > 1e-8 * load {
                 faults.push(format!("{seed} {row:?} {load}: {sum}, sides differ by {off}"));
             }
         }
     }
-    println!("{solved} of {scenes} solved, {} faults", faults.len());
-    assert!(faults.is_empty() && solved > scenes / 2, "{}", faults.join("\n"));
+    println!("{solved} of {} solved, {} faults", seeds.len(), faults.len());
+    assert!(faults.is_empty() && 2 * solved > seeds.len(), "{}", faults.join("\n"));
 }
 
 /// Two lands at different heights, with a groove between them whose walls are as upright as the

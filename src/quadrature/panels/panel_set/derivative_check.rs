@@ -6,9 +6,6 @@ use crate::numerics::chebyshev::{Table, primitive, values};
 use crate::quadrature::panels::panel::{NodeHeight, Panel, rise, within};
 use crate::{Body, ContactError, Fallible, InputError, Interval, ProfileError, Real};
 
-/// Rounding of the x of a joint, drawn as a sum of lengths, in units in the last place.
-const X_ROUNDING: f64 = 4.0;
-
 impl<T: Real> PanelSet<T> {
     /// Refuses a wrong sign or factor in a derivative. Looks at the two last points whose heights
     /// contradict their slopes most.
@@ -237,8 +234,8 @@ impl<T: Real> Rises<T> {
         for x in std::iter::once(left).chain(gap.breakpoints(Interval { left, right })) {
             let [turn, by_heights, _] = gap.jump(x);
             // A wall is as high as the x of both of its ends tell.
-            let wall = T::of(X_ROUNDING) * T::epsilon() * x.abs() * turn.abs();
-            known.open += wall.is_finite().then_some(wall).unwrap_or(T::zero());
+            let wall = rounding((x * turn).abs());
+            known.open += if wall.is_finite() { wall } else { T::zero() };
             if gap.is_seam(x) {
                 known.open += by_heights.abs();
                 continue;

@@ -201,8 +201,8 @@ impl<T: Real> OneOfSeveral<T> {
         });
     }
 
-    /// Tells whether one panel would spare many, and have a node in each: between two nodes a fillet
-    /// at the end of a flat would not be seen.
+    /// Tells whether one panel would spare many, and have a node in each: a fillet at the end of a
+    /// flat, between two nodes, would not be seen.
     fn may_be_one_panel(&self) -> bool {
         let (on, step) = (self.on, T::pi() / T::count(MAX_SIZE));
         let has_node = |panel: &Panel<T>| {

@@ -41,7 +41,7 @@ impl<T: Real> Terms<T> {
         })
     }
 
-    /// Returns the sum of the residues, each times a power of the distance of its pole from a place.
+    /// Returns the sum of the residues, each times a power of the distance of its pole.
     pub fn residues(&self, from: T, power: i32) -> T {
         self.poles.iter().fold(T::zero(), |sum, &(_, x, by)| sum + by * (x - from).powi(power))
     }

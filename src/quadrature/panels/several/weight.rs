@@ -11,8 +11,8 @@
 //! overflows; `w p` does not: with zeros ν in the middle of gaps, each factor of S has one of p
 //! close by, and `w p` keeps its sign over a contact. Without corners every gap has a zero. Among
 //! more corners than contacts p has *poles* μ instead, each in a gap between two corners, so that
-//! it stays: `p = Π (x - ν)/Π (x - μ)`. With n corners there are N less n more zeros than poles, and
-//! one more if n exceeds N.
+//! it stays: `p = Π (x - ν)/Π (x - μ)`. With n corners there are N - n more zeros than poles, one
+//! more than that if n exceeds N.
 
 use crate::numerics::{Combine, FarField};
 use crate::{Ends, Interval, Real, Side};
@@ -86,16 +86,17 @@ impl<T: Real> Weight<T> {
     fn choose_middles(&mut self) {
         let gaps = self.on.len() - 1;
         let is_fixed = |k: usize| self.held[k].right && self.held[k + 1].left;
+        let beyond_one = |held: Ends<bool>| i32::from(held.left) + i32::from(held.right) - 1;
         // Corners and zeros so far, less poles and contacts.
         let mut have = 0;
         let mut signs: Vec<i32> = Vec::with_capacity(gaps);
         for k in 0..gaps {
-            have += count(self.held[k]) as i32 - 1;
+            have += beyond_one(self.held[k]);
             let sign = if have > 0 { -i32::from(is_fixed(k)) } else { -have.signum() };
             have += sign;
             signs.push(sign);
         }
-        have += count(self.held[gaps]) as i32 - 1;
+        have += beyond_one(self.held[gaps]);
         let wanted = match self.corners {
             0 => -1,
             n => i32::from(n > self.on.len()),
