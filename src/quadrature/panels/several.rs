@@ -20,9 +20,9 @@
 //!
 //! with h the height of the gap between the bodies. There are as many conditions as free limits,
 //! two per contact without corners. At the poles of p V has further [terms](terms), which close the
-//! gaps between corners; with more corners than contacts a constant bears the load. A limit e acts on each through `V(e)`,
-//! taken without its infinite part (Hadamard's finite part), up to terms that vanish with the other
-//! conditions:
+//! gaps between corners; with more corners than contacts a constant bears the load. A limit e acts
+//! on each through `V(e)`, taken without its infinite part (Hadamard's finite part), up to terms
+//! that vanish with the other conditions:
 //!
 //! ```text
 //! of V(ν):      V(e)/(2 (e - ν))
