@@ -749,7 +749,7 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     (lambda: ANY.Curve((-1, 1), lambda k: k**2), TypeError, ("returned one array:", "must return four")),
     (lambda: ANY.Curve((-1, 1), lambda k: None), TypeError, ("returned nothing:", "must return four")),
     (lambda: anything(contact()).solve(load="500"), TypeError, ("load is '500'", "give one number")),
-    (lambda: anything(contact()).solve(load=[1.0, 2.0]), TypeError, ("load is [1.0, 2.0]", "give one number")),
+    (lambda: anything(contact()).solve(load=[1.0, 2.0]), TypeError, ("load is [1.0, 2.0]", "give one number", "sweep")),
     *(
         (call, TypeError, (f"{name} is True: give one number",))
         for name, call in {
@@ -782,7 +782,7 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     (lambda: material_of(layered(1.0)._settings["materials"][1]), TypeError, ("materials are Layer(", "one for the")),
     (lambda: ANY.Layer(210e3, 1.0, "bonded"), TypeError, ("210000.0 is no Material", "E and ν")),
     (lambda: ANY.Layer(STEEL, "1", "bonded"), TypeError, ("thickness is '1'", "one number")),
-    (lambda: ANY.Layer(STEEL, 1.0, "glued"), ValueError, ("base is 'glued'", "'bonded', 'frictionless'")),
+    (lambda: ANY.Layer(STEEL, 1.0, "glued"), ValueError, ("base is 'glued'", "'frictionless', a Material")),
     (lambda: ANY.Layer(STEEL, 1.0, 0.3), TypeError, ("0.3 is no Material", "E and ν")),
     (lambda: ANY.contact_modulus(STEEL, lc.Layer(STEEL, 1.0, STEEL)), TypeError, ("Layer(", "is no Material")),
     (lambda: contact(limit_search="brend"), ValueError, ("limit_search is 'brend'", "'secant', 'brent', 'newton'")),
@@ -795,7 +795,7 @@ MISTAKES: list[tuple[Callable[[], Any], type[Exception], tuple[str, ...]]] = [
     ),
     (lambda: material(plane="strian"), ValueError, ("plane is 'strian'", "'strain', 'stress'")),
     (lambda: contact(kapa=1.0), TypeError, ("Contact has no argument kapa", "materials, kappa, plane")),
-    (lambda: anything(contact()).solve(laod=1.0), TypeError, ("no argument laod", "there are load, half_width")),
+    (lambda: anything(contact()).solve(laod=1.0), TypeError, ("no argument laod", "did you mean load?", "There are load, half_width")),
     (lambda: ANY.solve(FLAT, BODY, laod=1.0), TypeError, ("solve has no argument laod", "load", "kappa")),
     (lambda: ANY.Spline(np.zeros((9, 2)), smoth=True), TypeError, ("no argument smoth", "points, smooth, outliers")),
     (lambda: ANY.Spline(np.zeros((9, 2)), smooth=1e-4), TypeError, ("smooth is 0.0001", "True or False")),

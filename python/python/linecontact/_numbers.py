@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Collection, Sequence
+from difflib import get_close_matches
 from functools import wraps
 from typing import Any, ParamSpec, TypeAlias, TypeVar
 
@@ -123,7 +124,9 @@ def refuse_unknown(given: Collection[str], allowed: Sequence[str], of: str) -> N
     """Refuses keyword arguments that are not allowed, and names the allowed ones."""
     for name in given:
         if name not in allowed:
-            raise TypeError(f"{of} has no argument {name}: there are {', '.join(allowed)}")
+            near = get_close_matches(name, allowed, 1)
+            meant = f"did you mean {near[0]}? T" if near else "t"
+            raise TypeError(f"{of} has no argument {name}: {meant}here are {', '.join(allowed)}")
 
 
 def named(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Result]:

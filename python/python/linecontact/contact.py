@@ -8,6 +8,8 @@ import os
 from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
 
+import numpy as np
+
 from . import _native
 from ._numbers import Range, Unchanging, as_number, as_range, as_references, named, one_of, refusal
 from .bodies import Body
@@ -125,9 +127,10 @@ class Layer(_Layer):
 
     def __new__(cls, material: Sequence[float], thickness: float, base: Sequence[float] | Layer | Rigid) -> Layer:
         """Creates the layer; refuses what is no material here, before any solve."""
-        words = ("bonded", "frictionless")
         if isinstance(base, str):
-            below: Material | Layer | Rigid = cast("Rigid", one_of(base, "base", words))
+            if base not in ("bonded", "frictionless"):
+                raise ValueError(f"base is {base!r}: give 'bonded', 'frictionless', a Material or another Layer")
+            below: Material | Layer | Rigid = base
         else:
             below = base if isinstance(base, Layer) else _material(base)
         length = as_number(thickness, "thickness")
@@ -524,7 +527,11 @@ def _prescribed(
     *, references: References | None, **numbers: float | None
 ) -> tuple[str, list[float], References | None]:
     """Returns the prescribed quantities in the library's form."""
-    given = {name: as_number(value, name) for name, value in numbers.items() if value is not None}
+    asked = {name: value for name, value in numbers.items() if value is not None}
+    many = [name for name, value in asked.items() if np.size(value) > 1]
+    if many:
+        raise TypeError(f"{many[0]} is {asked[many[0]]!r}: give one number, or all to sweep(contact, {many[0]}=...)")
+    given = {name: as_number(value, name) for name, value in asked.items()}
     kind, values = _control(given, references)
     if references is not None and kind != "approach":
         raise TypeError("references belong to an approach: give them where one is asked for")
