@@ -98,6 +98,12 @@ pub struct Wrench<T> {
 /// curve runs back, or further, upside down, is refused: of a cam that goes round, each step takes
 /// the side that faces the follower, as a body of its own. A round body that rolls keeps its angle,
 /// with its origin in the middle: its turn changes nothing.
+///
+/// The references stay where they are as the contact moves. Those at a depth then see it from
+/// aside, and the force has a potential only about: of a punch 6 wide that rests on one of its
+/// edges, ∂F/∂angle and ∂torque/∂y differ by 1.3 % with references 30 deep, and by 0.03 % with
+/// references 300 deep or of a [`Reference::Length`](crate::Reference::Length).
+///
 /// A contact that reaches an end of the bodies is an error, and features narrower than those that
 /// [`Contact::solve`] sees are not seen unless a [`resolution`](Self::resolution) asks for them.
 ///

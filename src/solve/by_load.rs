@@ -403,9 +403,12 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
             ContactError::Solve(Falls { load, .. }) => unknown(load, infinite),
             ContactError::Solve(NoEquilibrium { .. } | NoFirstContact { .. } | LiftsOff { .. }) => {
                 // So small a load is not held by a corner, does not close a hollow, or leaves no
-                // height to tell; unless a smaller one has been borne.
+                // height to tell; unless a smaller one has been borne, and heights tell this one.
                 let is_borne = |at: &Point<T>| at.value > T::zero() && at.load <= load;
-                let is_more = self.low.iter().chain(&self.high).any(is_borne);
+                let Contact { gap, kappa, .. } = self.contact;
+                let look = self.work.workspace.survey_of(gap);
+                let is_told = look.is_none_or(|look| load >= *kappa * look.doubt_at(look.lowest));
+                let is_more = is_told && self.low.iter().chain(&self.high).any(is_borne);
                 unknown(load, if is_more { infinite } else { T::zero() })
             }
             _ => return Err(error.clone()),

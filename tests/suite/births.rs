@@ -3,8 +3,9 @@
 
 use crate::common::{Shares, on_flat};
 use crate::corners::polygon;
-use linecontact::profile::Outline;
+use linecontact::profile::{Ellipse, Outline, Placed, Placement};
 use linecontact::{Contact, ContactError, Control, SolveError};
+use std::f64::consts::PI;
 
 /// Between contacts that a load has all but merged, at a hollow corner, the gap is known to
 /// rounding, as are the pressures beside it.
@@ -124,6 +125,38 @@ fn narrow_lands_behind_hollow_corners() {
         for load in [0.02, 0.03, 0.04] {
             let solution = contact.solve(Control::Load(load)).unwrap();
             assert!(solution.certify().unwrap().is_proved(), "{width} {load}: {solution}");
+        }
+    }
+}
+
+/// A roller on the edge of a step, far from the ground below it, under loads for which no cells are
+/// small enough: a wedge between the wall and the tangent of the roller.
+#[test]
+fn a_roller_rests_on_the_edge_of_a_step() {
+    let radius = 20.0;
+    let roller = Ellipse::circle(radius, [-1.0, 1.0]).unwrap();
+    let roller = Placed::new(roller, Placement::default().shifted(-1.2, 0.0)).unwrap();
+    for wall in [1.0f64, 100.0, 1e6] {
+        let ground = Outline::from([-5.0, -0.5]).line(4.8).corner(wall).line(0.5 / wall);
+        let step = ground.corner(0.0).line(3.0).build().unwrap();
+        let contact = Contact::new(&step, &roller).unwrap().contact_modulus(115e3);
+        let corner = -0.2 + 0.5 / wall;
+        let aside = corner + 1.2;
+        let slope = aside / (radius * radius - aside * aside).sqrt();
+        for i in 0..24 {
+            let load = 10f64.powf(-5.0 + 0.25 * f64::from(i));
+            let solution = contact.solve(Control::Load(load)).unwrap();
+            let [on] = *solution.intervals() else { panic!("{wall} {load}: {solution}") };
+            assert!(on.left <= corner && corner < on.right, "{wall} {load}: {solution}");
+            // At the corner θ is π times the share of the flatter side in the angle.
+            let share = 0.5 * (1.0 - (PI * slope / wall).cos());
+            let found = (corner - on.left) / (on.right - on.left);
+            // Of x, a sum of lengths up to 5.
+            let rounding = 20.0 * f64::EPSILON / (on.right - on.left);
+            assert!(
+                wall > 1.0 || load > 1e-2 || (found - share).abs() < 0.01 * share + rounding,
+                "{wall} {load}"
+            );
         }
     }
 }

@@ -129,7 +129,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
             Fault::Tension(error) | Fault::Overlap(error) => {
                 let outcome = Outcome::of(&error);
                 self.error = Some(error);
-                return (outcome, self.start_of_several());
+                let overlaps = outcome == Outcome::Overlap && self.may_be_several();
+                let next = if overlaps { self.beside_one() } else { self.start_of_several() };
+                return (outcome, next);
             }
             Fault::Error(error) | Fault::Final(error) => error,
             _ => self.no_balance(),
@@ -151,6 +153,22 @@ impl<T: Real> Search<'_, '_, '_, T> {
             Err(error) => Err(error),
         };
         (Outcome::NotFound, next)
+    }
+
+    /// Returns the next start after one contact beside which the bodies would overlap: cells, or
+    /// where these tell nothing one more contact, if the first is not at the lowest gap. The load
+    /// moves heights by up to F/κ times the logarithm of a distance in half-widths, and is less
+    /// than heights are uncertain.
+    fn beside_one(&mut self) -> Next<T> {
+        let conditions = self.conditions;
+        if !self.cells_tell(&conditions)? {
+            let Workspace { look, overlaps, .. } = &*self.work.workspace;
+            let moved = T::epsilon().ln().abs() * look.doubt_at(look.lowest);
+            if overlaps.dips.iter().any(|dip| -dip.gap > moved) {
+                return Ok(self.mend());
+            }
+        }
+        self.start_of_several()
     }
 
     /// Tells whether a search for several contacts would fail with the error of this search for
@@ -243,21 +261,29 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(())
     }
 
+    /// Surveys the bodies for cells. Tells whether these tell anything: they go by heights, which
+    /// must be known to F/κ.
+    fn cells_tell(&mut self, conditions: &Conditions<T>) -> Fallible<T, bool> {
+        let (gap, Work { workspace, cost, .. }) = (&self.contact.gap, &mut *self.work);
+        workspace.take(gap, cost)?;
+        workspace.look.refine(gap, asked_by(conditions), T::of(MAX_CELL_UNCERTAINTY), cost)?;
+        let look = &workspace.look;
+        Ok(conditions.load().abs() >= conditions.kappa * look.doubt_at(look.lowest))
+    }
+
     pub(super) fn coarse(
         &mut self,
         conditions: &Conditions<T>,
         cells: usize,
     ) -> Fallible<T, Coarse<T>> {
+        let tell = self.cells_tell(conditions)?;
         let (gap, Ends { left, right }) = (&self.contact.gap, self.contact.ends());
         let Work { workspace, cost, .. } = &mut *self.work;
-        workspace.take(gap, cost)?;
-        workspace.look.refine(gap, asked_by(conditions), T::of(MAX_CELL_UNCERTAINTY), cost)?;
         let Workspace { look, newton, cell_work, .. } = &mut **workspace;
         let (kappa, load) = (conditions.kappa, conditions.load());
         let half_width = T::of(0.5) * (right - left);
         let nothing = SolveError::NoEquilibrium { half_width, near: look.lowest }.into();
-        // Cells go by heights, which must be known to F/κ.
-        if load.abs() < kappa * look.doubt_at(look.lowest) {
+        if !tell {
             return Err(nothing);
         }
         let (turned, range) = (look.heights(gap), [left, right]);
