@@ -58,8 +58,9 @@ const MAX_CHANGES: usize = 400;
 /// Full updates without progress before switching to one cell at a time.
 const MAX_IN_VAIN: usize = 4;
 
-/// Largest sum of cells times steps over all linear systems of a search: half a minute at worst.
-const MAX_WORK: usize = 10_000_000;
+/// Largest sum of cells times steps over all linear systems of a search: a quarter of a minute at
+/// worst, and twenty times what a step of the heights takes.
+const MAX_WORK: usize = 20_000_000;
 
 /// Two bodies and a load.
 pub(super) struct Scene<'s, T: Real> {
