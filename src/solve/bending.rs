@@ -20,8 +20,8 @@ use crate::gap::Gap;
 use crate::kernel::{Bend, Correction, Kept, Kernel, Spread};
 use crate::solution::{ContactState, Integrals, Report, Solved};
 use crate::{ContactError, Edge, Ends, Fallible, InputError, Interval, Real, Side, SolveError};
-use cells::line_of_load;
-use row::{hull, merged};
+use cells::load;
+use row::{fills, hull, merged};
 
 /// Contacts solved before the search is given up.
 const MAX_SOLVES: usize = 120;
@@ -103,7 +103,13 @@ pub(super) fn find<'b, T: Real>(
     if let Control::HalfWidth(half_width) = control {
         check_width(kernel, half_width, 1.0)?;
     }
+    let is_warm = !work.workspace.spreads.is_empty();
     let mut found = from_last(contact, kernel, control, work);
+    // The pressures of another load may be no start.
+    if is_warm && found.as_ref().is_err_and(|error| !ends(error)) {
+        work.workspace.keep(&[]);
+        found = from_last(contact, kernel, control, work);
+    }
     // Where a row is about to touch all over, the contacts under a lighter load are a start, and so
     // are those under each load on the way.
     if let (Err(ContactError::Solve(SolveError::CompleteContact { load, complete })), true) =
@@ -177,11 +183,6 @@ fn from_last<'b, T: Real>(
     .find()
 }
 
-/// Tells whether a contact of this half-width fills the period of a row.
-fn fills<T: Real>(kernel: &Kernel<'_, T>, half_width: T) -> bool {
-    kernel.row.as_ref().is_some_and(|row| half_width + half_width >= row.period)
-}
-
 /// Refuses a contact that is some times too wide beside the kernel.
 fn check_width<T: Real>(kernel: &Kernel<'_, T>, half_width: T, times: f64) -> Fallible<T, ()> {
     let Some(distance) = kernel.layer_distance() else { return Ok(()) };
@@ -211,11 +212,6 @@ fn warm<T: Real>(spreads: Vec<Spread<T>>, control: Control<T>) -> Vec<Spread<T>>
         }
         _ => spreads,
     }
-}
-
-/// Returns the load of a control that gives one.
-fn load<T: Real>(control: Control<T>) -> Option<T> {
-    line_of_load(control).map(|(load, _)| load)
 }
 
 struct Bending<'s, 'w, 'b, T: Real> {

@@ -28,10 +28,12 @@ impl<T: Real> Bending<'_, '_, '_, T> {
     pub(super) fn begin_with_cells(&mut self) -> Fallible<T, bool> {
         let Some((load, at)) = line_of_load(self.control) else { return Ok(false) };
         let Some(coarse) = self.coarse((load, at))? else { return Ok(false) };
-        self.reaches = self.end_reached(&coarse);
-        if self.reaches.is_some() && self.kernel.row.is_some() {
+        let reaches = self.end_reached(&coarse);
+        // A period has no ends.
+        if reaches.is_some() && self.kernel.row.is_some() {
             return Ok(false);
         }
+        self.reaches = reaches;
         check_width(&self.kernel, coarse.hull().half_width(), DOUBT)?;
         let (kappa, gap, contacts) = (self.contact.kappa, &self.gap, &coarse.intervals);
         let kept = if at.is_some() { Kept::Moment(kappa) } else { Kept::Load };
@@ -131,6 +133,11 @@ impl<T: Real> Bending<'_, '_, '_, T> {
             _ => Ok(None),
         }
     }
+}
+
+/// Returns the load of a control that gives one.
+pub(super) fn load<T: Real>(control: Control<T>) -> Option<T> {
+    line_of_load(control).map(|(load, _)| load)
 }
 
 /// Returns the load of a control, and the place where it acts if the bodies turn.

@@ -5,7 +5,7 @@
 //! first contacts are about as many as the last ones.
 
 use super::{Bending, Spread, load};
-use crate::kernel::{loads, punch};
+use crate::kernel::{Kernel, loads, punch};
 use crate::numerics::ascending;
 use crate::{ContactError, Fallible, Interval, Real, SolveError};
 
@@ -101,6 +101,11 @@ impl<T: Real> Bending<'_, '_, '_, T> {
         let load = load(self.control).unwrap_or(complete);
         Ok(SolveError::CompleteContact { load, complete }.into())
     }
+}
+
+/// Tells whether a contact of this half-width fills the period of a row.
+pub(super) fn fills<T: Real>(kernel: &Kernel<'_, T>, half_width: T) -> bool {
+    kernel.row.as_ref().is_some_and(|row| half_width + half_width >= row.period)
 }
 
 /// Returns the widest gap between some contacts, or between the last one and the next period.

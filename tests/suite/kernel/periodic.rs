@@ -55,6 +55,26 @@ fn a_period_that_does_not_close_to_the_last_bit() {
     assert!((closed.left - open.left).abs() < 1e-10 && (closed.right - open.right).abs() < 1e-10);
 }
 
+/// Peaks of a rough row under loads at which contacts are born: from the pressures of one load, the
+/// contacts under another may not be found, and a period has no ends that they could leave.
+#[test]
+fn peaks_of_a_rough_row() {
+    let term = |k: f64| [1e-3 * k.powf(-1.3), TAU * k, (12.9898 * k).sin() * 43.0];
+    let terms: Vec<[f64; 3]> = (1..=12).map(|k| term(f64::from(k))).collect();
+    let body = graph(0.0, 1.0, move |x| {
+        terms.iter().fold([0.0; 2], |[y, slope], &[a, omega, phase]| {
+            let (sin, cos) = (omega * x + phase).sin_cos();
+            [y + a * cos, slope - a * omega * sin]
+        })
+    });
+    let contact = Contact::new(&Flat, &*body).unwrap().kappa(1.0).period(1.0);
+    for load in [3e-4, 1e-3, 2e-3] {
+        let peak = contact.solve(Control::Load(load)).unwrap().peak().unwrap().pressure;
+        let found = contact.solve(Control::PeakPressure(peak)).unwrap();
+        assert!((found.load() / load - 1.0).abs() < 1e-12, "{load}: {found}");
+    }
+}
+
 #[test]
 fn one_contact_is_westergaards() {
     let d = 0.02;

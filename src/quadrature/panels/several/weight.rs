@@ -44,6 +44,8 @@ pub(super) struct Weight<T> {
     corners: usize,
     /// Zero or pole of p in each gap, if it has one.
     middles: Vec<Option<Middle<T>>>,
+    /// Number of zeros before each gap.
+    before: Vec<usize>,
     /// Flags: `w p` changes its sign an odd number of times to the right of a contact.
     flips: Vec<bool>,
 }
@@ -51,8 +53,8 @@ pub(super) struct Weight<T> {
 impl<T: Real> Weight<T> {
     pub fn new() -> Self {
         let (far, held) = (FarField::new(Combine::Product), Vec::new());
-        let (on, middles, flips) = (Vec::new(), Vec::new(), Vec::new());
-        Self { on, far, held, corners: 0, middles, flips }
+        let (on, middles, before, flips) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { on, far, held, corners: 0, middles, before, flips }
     }
 
     /// Sets the contacts, and the limits of each that are held.
@@ -106,16 +108,19 @@ impl<T: Real> Weight<T> {
             let by = (wanted - have).clamp(least - signs[k], 1 - signs[k]);
             (signs[k], have) = (signs[k] + by, have + by);
         }
+        let (half, mut zeros) = (T::of(0.5), 0);
         self.middles.clear();
-        self.middles.extend((0..gaps).map(|k| {
-            let half = T::of(0.5);
+        self.before.clear();
+        for (k, sign) in signs.into_iter().enumerate() {
             let middle = half * self.on[k].right + half * self.on[k + 1].left;
-            match signs[k] {
+            self.before.push(zeros);
+            zeros += usize::from(sign == 1);
+            self.middles.push(match sign {
                 0 => None,
                 1 => Some(Middle::Zero(middle)),
                 _ => Some(Middle::Pole(middle)),
-            }
-        }));
+            });
+        }
     }
 
     pub fn contacts(&self) -> &[Interval<T>] {
@@ -151,9 +156,10 @@ impl<T: Real> Weight<T> {
 
     /// Returns the zero of p in a gap, and its number.
     pub fn zero(&self, k: usize) -> Option<(usize, T)> {
-        let Some(Middle::Zero(zero)) = self.middles[k] else { return None };
-        let is_zero = |middle: &&Option<Middle<T>>| matches!(middle, Some(Middle::Zero(_)));
-        Some((self.middles[..k].iter().filter(is_zero).count(), zero))
+        match self.middles[k] {
+            Some(Middle::Zero(zero)) => Some((self.before[k], zero)),
+            _ => None,
+        }
     }
 
     /// Returns the pole of p in a gap.
@@ -166,10 +172,7 @@ impl<T: Real> Weight<T> {
 
     /// Returns the zeros of p, each with the number of its gap.
     pub fn zeros(&self) -> impl Iterator<Item = (usize, T)> {
-        self.middles.iter().enumerate().filter_map(|(k, &middle)| match middle {
-            Some(Middle::Zero(zero)) => Some((k, zero)),
-            _ => None,
-        })
+        (0..self.middles.len()).filter_map(|k| Some((k, self.zero(k)?.1)))
     }
 
     /// Returns the poles of p, each with the number of its gap.
