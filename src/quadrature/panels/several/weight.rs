@@ -44,7 +44,8 @@ pub(super) struct Weight<T> {
     corners: usize,
     /// Zero or pole of p in each gap, if it has one.
     middles: Vec<Option<Middle<T>>>,
-    /// Number of zeros before each gap.
+    /// Zeros less poles of each gap, and the number of zeros before it.
+    signs: Vec<i32>,
     before: Vec<usize>,
     /// Flags: `w p` changes its sign an odd number of times to the right of a contact.
     flips: Vec<bool>,
@@ -53,8 +54,9 @@ pub(super) struct Weight<T> {
 impl<T: Real> Weight<T> {
     pub fn new() -> Self {
         let (far, held) = (FarField::new(Combine::Product), Vec::new());
-        let (on, middles, before, flips) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { on, far, held, corners: 0, middles, before, flips }
+        let (on, middles, flips) = (Vec::new(), Vec::new(), Vec::new());
+        let (signs, before) = (Vec::new(), Vec::new());
+        Self { on, far, held, corners: 0, middles, signs, before, flips }
     }
 
     /// Sets the contacts, and the limits of each that are held.
@@ -91,7 +93,8 @@ impl<T: Real> Weight<T> {
         let beyond_one = |held: Ends<bool>| i32::from(held.left) + i32::from(held.right) - 1;
         // Corners and zeros so far, less poles and contacts.
         let mut have = 0;
-        let mut signs: Vec<i32> = Vec::with_capacity(gaps);
+        let mut signs = std::mem::take(&mut self.signs);
+        signs.clear();
         for k in 0..gaps {
             have += beyond_one(self.held[k]);
             let sign = if have > 0 { -i32::from(is_fixed(k)) } else { -have.signum() };
@@ -111,7 +114,7 @@ impl<T: Real> Weight<T> {
         let (half, mut zeros) = (T::of(0.5), 0);
         self.middles.clear();
         self.before.clear();
-        for (k, sign) in signs.into_iter().enumerate() {
+        for (k, &sign) in signs.iter().enumerate() {
             let middle = half * self.on[k].right + half * self.on[k + 1].left;
             self.before.push(zeros);
             zeros += usize::from(sign == 1);
@@ -121,6 +124,7 @@ impl<T: Real> Weight<T> {
                 _ => Some(Middle::Pole(middle)),
             });
         }
+        self.signs = signs;
     }
 
     pub fn contacts(&self) -> &[Interval<T>] {
