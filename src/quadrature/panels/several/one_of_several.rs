@@ -170,7 +170,7 @@ impl<T: Real> OneOfSeveral<T> {
     /// one panel is taken if it is almost enough.
     pub fn set(&mut self, weight: impl Fn([T; WIDE]) -> [T; WIDE], is_trial: bool) {
         let (on, tolerance) = (self.on, self.panel_set.tolerance);
-        if !(is_trial && self.may_be_one_panel() && self.on_one_panel(&weight)) {
+        if !(is_trial && self.panel_set.panels.len() >= MANY && self.on_one_panel(&weight)) {
             self.panels.clear();
             for (panel, x) in spans(within(&self.panel_set.panels, on), on) {
                 self.waiting.push((x, 0));
@@ -201,28 +201,22 @@ impl<T: Real> OneOfSeveral<T> {
         });
     }
 
-    /// Tells whether one panel would spare many, and have a node in each: a fillet at the end of a
-    /// flat, between two nodes, would not be seen.
-    fn may_be_one_panel(&self) -> bool {
-        let (on, step) = (self.on, T::pi() / T::count(MAX_SIZE));
-        let has_node = |panel: &Panel<T>| {
-            let [from, to] = [panel.x[0].max(on.left), panel.x[1].min(on.right)];
-            let x = T::of(0.5) * (from + to);
-            to - from >= step * ((x - on.left) * (on.right - x)).sqrt()
-        };
-        let panels = &self.panel_set.panels;
-        panels.len() >= MANY && within(panels, on).iter().all(has_node)
-    }
-
     /// Multiplies the slope by a weight on one panel; tells whether that is almost enough.
     fn on_one_panel(&mut self, weight: &impl Fn([T; WIDE]) -> [T; WIDE]) -> bool {
         let (x, zero) = ([self.on.left, self.on.right], T::zero());
         let slope = |x| self.panel_set.slope(x).unwrap_or(zero);
         let tolerance = T::of(TRIAL_TOLERANCE);
         let (product, resolved, _) = multiply(x, (&slope, zero, MAX_SIZE), weight, tolerance);
+        // A fillet at the end of a flat may lie beyond the last node.
+        let most = product.series.iter().fold(zero, |most, a| most.max(a.abs()));
+        let is_end = |&x: &T| {
+            let value = slope(x) * weight([x; WIDE])[0];
+            (product.value(x) - value).abs() <= tolerance.sqrt() * (most + value.abs())
+        };
+        let is_seen = resolved && x.iter().all(is_end);
         self.panels.clear();
         self.panels.push(product);
-        resolved
+        is_seen
     }
 
     /// Prepares for pressures in the contact.
