@@ -134,22 +134,3 @@ fn rows_of_lands_are_solved_and_certified() {
     println!("{solved} of {} solved, {} faults", seeds.len(), faults.len());
     assert!(faults.is_empty() && 2 * solved > seeds.len(), "{}", faults.join("\n"));
 }
-
-/// Two lands at different heights, with a groove between them whose walls are as upright as the
-/// guide recommends: their heights are those of x, to rounding, times their slope.
-#[test]
-fn upright_walls_are_certified() {
-    for seed in 0..200 {
-        let mut random = Shares(seed);
-        random.between(0.0, 1.0);
-        let [from, deep] = [random.between(0.0, 10.0), random.between(0.05, 0.5)];
-        let lands = [(); 2].map(|()| random.between(0.5, 2.0));
-        let (groove, step) = (0.3 * random.between(0.5, 2.0), random.power_of_ten(-6.0, -4.0));
-        let drawn = Outline::from([from, 0.2]).corner(-1.0).line(0.2).corner(0.0).line(lands[0]);
-        let drawn = drawn.corner(1e6).line(1e-6 * deep).corner(0.0).line(groove);
-        let drawn = drawn.corner(-1e6).line(1e-6 * (deep - step)).corner(0.0).line(lands[1]);
-        let contact = on_flat(Box::new(drawn.corner(1.0).line(0.2).build().unwrap()));
-        let certificate = contact.solve(Control::Load(20.0 / 115e3)).unwrap().certify();
-        assert!(certificate.is_ok(), "{seed}: {certificate:?}");
-    }
-}

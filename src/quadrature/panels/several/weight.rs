@@ -85,8 +85,7 @@ impl<T: Real> Weight<T> {
     }
 
     /// Puts zeros or poles into gaps, next to contacts with few or with many corners: far away the
-    /// factors of neighbours then cancel. What is known of one contact is known to rounding of the
-    /// largest `w p`.
+    /// factors of neighbours then cancel, and rounding at one contact is no larger at the others.
     fn choose_middles(&mut self) {
         let gaps = self.on.len() - 1;
         let is_fixed = |k: usize| self.held[k].right && self.held[k + 1].left;
