@@ -94,16 +94,8 @@ impl<T: Real> Conditions<T> {
         let Given::Centre { load, at } = self.given else { return T::zero() };
         let half_width = on.half_width();
         let by_load = load / (self.kappa * half_width);
-        match self.limits() {
-            Ends { left: None, right: None } => -m.m0,
-            Ends { left: Some(_), right: None } => by_load - m.m1 - m.m0,
-            Ends { left: None, right: Some(_) } => m.m1 - by_load - m.m0,
-            Ends { left: Some(_), right: Some(_) } => {
-                let second = m.m2.unwrap_or(T::zero());
-                let away = (on.centre() - at) / half_width;
-                second - m.m0 + (by_load + by_load) * away
-            }
-        }
+        let away = (on.centre() - at) / half_width;
+        m.m2.unwrap_or(T::zero()) - m.m0 + (by_load + by_load) * away
     }
 
     /// Returns the load that meets the conditions at the edges that are not fixed, on average;

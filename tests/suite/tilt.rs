@@ -4,7 +4,7 @@
 use crate::common::{Profile, graph, intervals, join, parabola};
 
 use approx::assert_relative_eq;
-use linecontact::profile::{Parabola, wedge};
+use linecontact::profile::{Outline, Parabola, wedge};
 use linecontact::search::Brent;
 use linecontact::{
     Contact, ContactError, Control, Edge, Ends, Flat, InputError, Interval, Midpoint, Solution,
@@ -166,6 +166,25 @@ fn a_parabola_held_by_one_corner() {
 }
 
 /// Bodies with two corners, of which one, both or none hold the contact.
+/// Next to a corner the rounding of a limit, over its distance from there, is not left in the
+/// moment, nor in the tilt: without a tilt the moment is that of the load by itself.
+#[test]
+fn the_moment_of_a_limit_beside_a_corner() {
+    let (radius, x) = (20.0f64, 0.25f64);
+    let root = (radius * radius - x * x).sqrt();
+    let wall = Outline::from([x - 0.005, radius - root + 0.5]).corner(-100.0).line(0.005);
+    let body = wall.corner(x / root).arc(radius, 7.75).build().unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115e3);
+    for load in [30.0, 300.0] {
+        let alone = contact.solve(Control::Load(load)).unwrap();
+        let turned = contact.solve(moment(load, alone.moment().unwrap())).unwrap();
+        let (on, due) = (turned.hull(), alone.hull());
+        near(on.right, due.right, due.half_width(), "a");
+        near(on.left, due.left, due.half_width(), "-b");
+        near(turned.tilt(), 0.0, 1.0, "tilt");
+    }
+}
+
 #[test]
 fn corners_hold_as_the_load_moves() {
     let body = parabola(3.0);
