@@ -100,16 +100,15 @@ pub(super) fn find<'b, T: Real>(
         let by = ByApproach { references, bodies };
         return by_load::find_of(contact, Some(kernel), &by, ("approach", approach), work);
     }
+    // One period of half-planes is no start for a row.
+    if let (Some(_), Control::PeakPressure(peak)) = (&kernel.row, control) {
+        let by = Peak::new(contact)?;
+        return by_load::find_of(contact, Some(kernel), &by, ("peak pressure", peak), work);
+    }
     if let Control::HalfWidth(half_width) = control {
         check_width(kernel, half_width, 1.0)?;
     }
-    let is_warm = !work.workspace.spreads.is_empty();
     let mut found = from_last(contact, kernel, control, work);
-    // The pressures of another load may be no start.
-    if is_warm && found.as_ref().is_err_and(|error| !ends(error)) {
-        work.workspace.keep(&[]);
-        found = from_last(contact, kernel, control, work);
-    }
     // Where a row is about to touch all over, the contacts under a lighter load are a start, and so
     // are those under each load on the way.
     if let (Err(ContactError::Solve(SolveError::CompleteContact { load, complete })), true) =
