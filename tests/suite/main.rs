@@ -103,6 +103,7 @@ mod several_quantities;
 mod several_solved;
 mod shapes;
 mod signorini;
+mod slits;
 mod small_gaps;
 mod solver;
 mod spline;

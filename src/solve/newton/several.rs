@@ -277,7 +277,9 @@ impl<T: Real> NewtonSeveral<T> {
             return Err(self.gone());
         }
         if !self.system.factor() {
-            return Err(Fault::Failed);
+            // The conditions of a contact that vanishes are alike in the end.
+            let vanishes = self.cut.iter().any(|&times| times >= MAX_CUT_STEPS);
+            return Err(if vanishes { self.gone() } else { Fault::Failed });
         }
         self.system.step(&mut self.step);
         self.moves.clear();

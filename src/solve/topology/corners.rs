@@ -10,7 +10,7 @@
 //! | free, next to a corner, or beyond one at an end | held there |
 //! | free, beyond a corner by hardly more than x is known | held there |
 //! | held, and nothing found, or contacts that vanish or meet | let go, where it was |
-//! | held, K < 0 | let go inward, to where it was if that is inward, the lowest first |
+//! | held, K < 0 | let go inward, to where it was or else to where P = 0, the lowest first |
 //! | held, K > 0, inside the bodies | put beyond the corner by d, the furthest first |
 //! | held, K > 0, d/L less than the rounding of x over d | held: d is the error of the limit |
 //!
@@ -26,7 +26,7 @@ use super::{Given, Search, Workspace};
 use crate::gap::Sampler;
 use crate::numerics::gauss_legendre::GaussLegendre;
 use crate::solution::{ContactState, Solved};
-use crate::{Edge, Ends, Fallible, Interval, Real, Side};
+use crate::{Edge, Ends, Fallible, Interval, Pressure, Real, Side};
 
 /// Largest distance of a limit from a corner that may hold it, as a share of the half-width: that
 /// of limits by cells.
@@ -226,6 +226,36 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(None)
     }
 
+    /// Parts the contacts of cells at slits, which cells do not see.
+    pub(super) fn parted_at_slits(
+        &mut self,
+        on: Vec<Interval<T>>,
+    ) -> Fallible<T, Vec<Interval<T>>> {
+        let all = on.iter().fold(T::zero(), |sum, on| sum + on.half_width());
+        let least = least_rise(self.conditions.load() / self.contact.kappa / all);
+        let mut parted = Vec::with_capacity(on.len());
+        for mut on in on {
+            let [reach, narrow] = [SHORT_WALL, NEAR_CORNER].map(|by| T::of(by) * on.half_width());
+            let mut from = None;
+            for z in self.breakpoints(on.left, on.right) {
+                let mut ends = [false; 2];
+                for side in Side::BOTH {
+                    let corner = self.corner(z, side)?;
+                    // The foot of the wall is no end.
+                    ends[side as usize] = outward::<T>(side) * corner.slope > -least
+                        && self.steepest_beyond(&corner, reach)? > least;
+                }
+                if let Some(end) = from.filter(|&from| ends[0] && z - from <= narrow) {
+                    parted.push(Interval { right: end, ..on });
+                    (on.left, from) = (z, None);
+                }
+                from = if ends[1] { Some(z) } else { from };
+            }
+            parted.push(on);
+        }
+        Ok(parted)
+    }
+
     /// Returns the limit of the next contact on a side.
     fn next_limit(&self, contact: usize, side: Side) -> Option<T> {
         let on = &self.work.workspace.newton.on;
@@ -311,8 +341,11 @@ impl<T: Real> Search<'_, '_, '_, T> {
             let Workspace { newton, before, .. } = &*self.work.workspace;
             let (on, outward) = (newton.on[contact], outward::<T>(side));
             let as_before = before.get(contact).map(|last| outward * (last[side] - on[side]));
-            let inward = as_before.filter(|away| *away < T::zero());
-            self.let_go(contact, side, inward.unwrap_or(-T::of(STEP_INWARD) * on.half_width()));
+            let inward = match as_before.filter(|away| *away < T::zero()) {
+                Some(inward) => inward,
+                None => -self.retreat(found, contact, side)?,
+            };
+            self.let_go(contact, side, inward);
             return Ok(true);
         }
         let ends = self.contact.ends();
@@ -346,6 +379,24 @@ impl<T: Real> Search<'_, '_, '_, T> {
             found.error = Some(found.error.unwrap_or(T::zero()) + error);
         }
         Ok(!beyond.is_empty())
+    }
+
+    /// Returns the distance from a corner that pulls at which the pressure turns positive, to a
+    /// factor of four: beside a slit that is far less than the width.
+    fn retreat(&mut self, found: &ContactState<T>, contact: usize, side: Side) -> Fallible<T, T> {
+        let (on, kappa) = (self.work.workspace.newton.on[contact], self.contact.kappa);
+        let (half_width, outward) = (on.half_width(), outward::<T>(side));
+        let gap = &self.contact.gap.tilted(found.tilt);
+        self.work.integrator.ready(gap, found.interval)?;
+        let solved = Solved { gap, integrator: &*self.work.integrator, kappa, found };
+        let pressure = Pressure::new(solved)?;
+        let least = T::of(8.0) * T::epsilon() * (on[side].abs() + half_width);
+        let (most, quarter) = (T::of(STEP_INWARD) * half_width, T::of(0.25));
+        let mut away = most;
+        while away > least && pressure.at(on[side] - outward * away)? > T::zero() {
+            away *= quarter;
+        }
+        Ok((away / quarter).min(most))
     }
 
     /// Puts the limits that are held back where they were, free unless they were at an end of the

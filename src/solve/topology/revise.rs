@@ -256,8 +256,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let coarse = self.coarse(&conditions, cells)?;
         self.runs_out = self.end_reached(&coarse);
         let tilt = self.contact.gap.tilt() + coarse.tilt;
+        let parted = self.parted_at_slits(coarse.intervals)?;
         let newton = &mut self.work.workspace.newton;
-        (newton.on, newton.tilt) = (coarse.intervals, tilt);
+        (newton.on, newton.tilt) = (parted, tilt);
         Ok(())
     }
 

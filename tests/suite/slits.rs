@@ -1,0 +1,125 @@
+//! Lands with slits between them, and planes with scratches, under rollers: narrow ones, and many.
+#![allow(missing_docs)]
+
+use crate::common::Shares;
+use linecontact::profile::{Ellipse, Outline, Placed, Placement};
+use linecontact::{Contact, ContactError, Control, SolveError};
+
+/// Lands or a plane, with grooves between flat parts, and a roller.
+#[derive(Debug)]
+struct Scene {
+    /// Widths of the flat parts, and their heights.
+    lands: Vec<[f64; 2]>,
+    /// Between them: the width at the bottom, the depth below the deeper side, and the slope.
+    grooves: Vec<[f64; 3]>,
+    radius: f64,
+    place: f64,
+    load: f64,
+    /// Distance of the load from the place of the roller, if the bodies turn.
+    aside: Option<f64>,
+}
+
+impl Scene {
+    fn new(random: &mut Shares, is_scratched: bool) -> Self {
+        let count = random.between(2.0, if is_scratched { 12.0 } else { 6.0 }) as usize;
+        let wear = random.power_of_ten(-8.0, -3.5);
+        let worn = random.between(0.0, 1.0) < 0.5;
+        let land = |random: &mut Shares| {
+            let height = if worn && random.between(0.0, 1.0) < 0.5 {
+                wear * random.between(0.0, 1.0)
+            } else {
+                0.0
+            };
+            [random.power_of_ten(-1.0, 0.3), if is_scratched { 0.0 } else { height }]
+        };
+        let lands: Vec<[f64; 2]> = (0..count).map(|_| land(random)).collect();
+        let all: f64 = lands.iter().map(|land| land[0]).sum();
+        let depth = random.power_of_ten(-3.0, 0.0);
+        let grooves = (1..count).map(|_| match is_scratched {
+            true => {
+                let [bottom, run] =
+                    [0, 1].map(|_| all / count as f64 * random.power_of_ten(-3.0, -0.5));
+                let slope = random.power_of_ten(-4.0, 1.5);
+                [bottom, run * slope, slope]
+            }
+            false => [random.power_of_ten(-5.0, -1.0), depth, 1e6],
+        });
+        let grooves = grooves.collect();
+        let radius = all * random.power_of_ten(1.0, 3.0);
+        let place = all * random.between(0.2, 0.8);
+        let half_width = 0.5 * all * random.power_of_ten(-1.5, -0.1);
+        let load = half_width * half_width * std::f64::consts::FRAC_PI_2 / (2.0 * radius);
+        let aside =
+            (random.between(0.0, 1.0) < 0.25).then(|| half_width * random.between(-0.3, 0.3));
+        Self { lands, grooves, radius, place, load, aside }
+    }
+
+    fn outline(&self) -> Outline<f64> {
+        let mut drawn = Outline::from([0.0, -self.lands[0][1]]).line(self.lands[0][0]);
+        for (i, &[bottom, depth, slope]) in self.grooves.iter().enumerate() {
+            let [from, to] = [self.lands[i][1], self.lands[i + 1][1]];
+            let lowest = from.max(to) + depth;
+            drawn = drawn.corner(-slope).line((lowest - from) / slope).corner(0.0).line(bottom);
+            drawn = drawn
+                .corner(slope)
+                .line((lowest - to) / slope)
+                .corner(0.0)
+                .line(self.lands[i + 1][0]);
+        }
+        drawn
+    }
+}
+
+/// Returns the number of scenes solved, and the faults.
+fn faults(is_scratched: bool) -> (usize, Vec<String>) {
+    let count = std::env::var("SCENES").map_or(100, |count| count.parse().unwrap());
+    let first = std::env::var("FIRST").map_or(0, |first| first.parse().unwrap());
+    let (mut solved, mut faults) = (0, Vec::new());
+    for seed in first..first + count {
+        let mut random = Shares(seed);
+        random.between(0.0, 1.0);
+        let scene = Scene::new(&mut random, is_scratched);
+        let Ok(body) = scene.outline().build() else { continue };
+        let reach = 0.9f64.min(6.0 * scene.place / scene.radius);
+        let roller = Ellipse::circle(scene.radius, [-reach, reach]).unwrap();
+        let roller = Placed::new(roller, Placement::default().shifted(scene.place, 0.0)).unwrap();
+        let contact = Contact::new(&body, &roller).unwrap().kappa(1.0);
+        let Scene { load, place, .. } = scene;
+        let control = match scene.aside {
+            Some(aside) => Control::CentreOfPressure { load, at: place + aside },
+            None => Control::Load(load),
+        };
+        let start = std::time::Instant::now();
+        let solution = contact.solve(control);
+        let time = start.elapsed().as_secs_f64();
+        if time > 2.0 {
+            println!("{seed} {time} s");
+        }
+        match solution {
+            Ok(solution) => {
+                solved += 1;
+                if let Err(error) = solution.certify() {
+                    faults.push(format!("{seed} {scene:?}: {solution}: {error}"));
+                }
+            }
+            Err(ContactError::Solve(
+                SolveError::DomainTooShort { .. } | SolveError::TiltNotFound { .. },
+            )) => {}
+            Err(error) => faults.push(format!("{seed} {scene:?}: {error}")),
+        }
+    }
+    println!("{solved} of {count} solved, {} faults", faults.len());
+    (solved, faults)
+}
+
+#[test]
+fn lands_with_slits() {
+    let (_, faults) = faults(false);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn planes_with_scratches() {
+    let (_, faults) = faults(true);
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
