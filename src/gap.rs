@@ -432,14 +432,12 @@ impl<'b, T: Real> Gap<'b, T> {
     }
 
     /// Returns the jump of the slope at a breakpoint, from the known ends of the pieces, zero where
-    /// it is rounding, the step of the height, which the tolerance of a joint may let pass, and
-    /// the size of the heights.
-    pub(crate) fn jump(&self, breakpoint: T) -> [T; 3] {
-        let [mut jump, mut size, mut step, mut height] = [T::zero(); 4];
+    /// it is rounding, and the step of the height, which the tolerance of a joint may let pass.
+    pub(crate) fn jump(&self, breakpoint: T) -> [T; 2] {
+        let [mut jump, mut size, mut step] = [T::zero(); 3];
         for (body, sign) in [(Body::Lower, -T::one()), (Body::Upper, T::one())] {
             if let Some([left, right]) = self.bodies[body as usize].pieces_at(breakpoint) {
                 step += sign * (right.ends[0].y - left.ends[1].y);
-                height += left.ends[1].y.abs();
                 let [left, right] =
                     [(left, 1), (right, 0)].map(|(piece, end)| piece.end_slope(end, &mut 0));
                 jump += sign * (right - left);
@@ -447,7 +445,7 @@ impl<'b, T: Real> Gap<'b, T> {
             }
         }
         let is_told = jump.abs() > T::epsilon().sqrt() * size || !size.is_finite();
-        [if is_told { jump } else { T::zero() }, step, height]
+        [if is_told { jump } else { T::zero() }, step]
     }
 
     /// Returns the smooth piece of a body to the left or right of `x`, and its number.

@@ -8,7 +8,7 @@ pub(crate) use inside::{Inside, Tensions, parting};
 pub(super) use series_bounds::{bounds, extremes, least, truncation_error};
 
 use super::Extremum;
-use crate::gap::Gap;
+use crate::gap::{Gap, Sampler};
 use crate::{Interval, Real};
 
 /// Width of a gap in a contact that counts as closed, in units of rounding.
@@ -44,11 +44,12 @@ pub(super) fn nearer<T: Real>(
 }
 
 /// Returns the width below which a gap in contacts from one limit to another, as at a hollow
-/// corner, counts as closed: by the rounding of x, or by that of the heights over the fall of the
-/// slope. (Less than a share √ε of the contacts, which changes the rest by a share ε.)
+/// corner, counts as closed: by the rounding of x, or by that of both bodies' heights over the fall
+/// of the slope. (Less than a share √ε of the contacts, which changes the rest by a share ε.)
 pub(crate) fn least_width<T: Real>(gap: &Gap<'_, T>, on: Interval<T>, x: T) -> T {
-    let [jump, .., height] = gap.jump(x);
-    let by_height = if jump < T::zero() { height / -jump } else { T::zero() };
+    let ([jump, _], mut sampler) = (gap.jump(x), Sampler::default());
+    let is_told = jump < T::zero() && sampler.height_as_described(gap, x).is_ok();
+    let by_height = if is_told { sampler.highest / -jump } else { T::zero() };
     let rounding = T::epsilon() * (on.left.abs().max(on.right.abs()) + by_height);
     (T::of(CLOSED_WIDTH) * rounding).min(T::epsilon().sqrt() * on.half_width())
 }

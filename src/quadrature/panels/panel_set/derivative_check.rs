@@ -232,7 +232,7 @@ impl<T: Real> Rises<T> {
         }
         // The height at a joint is that on its left.
         for x in std::iter::once(left).chain(gap.breakpoints(Interval { left, right })) {
-            let [turn, by_heights, _] = gap.jump(x);
+            let [turn, by_heights] = gap.jump(x);
             // A wall is as high as the x of both of its ends tell.
             let wall = rounding((x * turn).abs());
             known.open += if wall.is_finite() { wall } else { T::zero() };
