@@ -222,6 +222,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 [left, right].into_iter().filter(|on| on.left < on.right)
             };
             *on = on.drain(..).flat_map(apart).collect();
+            // A corner further away does not hold them.
+            self.free.extend([span.left, span.right]);
         }
         let half = T::of(0.5);
         let aside = T::of(SEED_WIDTH) * (ends.right - ends.left);
