@@ -395,7 +395,8 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                     let conditions = Conditions { given, ..self.contact.under(carried)? };
                     return Ok(ControlFlow::Break(self.solve(conditions)?));
                 }
-                if value < wanted {
+                // Bodies that touch first at an end bear nothing.
+                if value < wanted || carried.is_zero() {
                     return Err(too_large);
                 }
                 unknown(carried.min(load), value)

@@ -345,3 +345,12 @@ fn poses_that_are_none_are_named_and_steep_contacts_are_said() {
     let ContactError::Input(InputError::Pose { source, .. }) = error else { panic!("{error}") };
     assert_eq!(*source, ContactError::Input(InputError::BothRigid));
 }
+
+/// Bodies that touch first at an end bear nothing, by approach as by load: what is said is that.
+#[test]
+fn bodies_that_touch_at_an_end_are_told_so() {
+    let body = graph(-3.0, 3.0, |x| [(0.3 - 0.05 * x * x) * x * x, (0.6 - 0.2 * x * x) * x]);
+    let mut pair = Pair::new(&Flat, &*body, (STEEL, STEEL), TO);
+    let error = pair.at(REST, pose(0.01, 1.3, 0.001)).unwrap_err().to_string();
+    assert!(error.contains("touch first at their end x = -2.9"), "{error}");
+}

@@ -50,7 +50,7 @@ impl Scene {
         let half_width = 0.5 * all * random.power_of_ten(-1.5, -0.1);
         let load = half_width * half_width * std::f64::consts::FRAC_PI_2 / (2.0 * radius);
         let aside =
-            (random.between(0.0, 1.0) < 0.25).then(|| half_width * random.between(-0.3, 0.3));
+            (random.between(0.0, 1.0) < 0.25).then(|| half_width * random.between(-0.1, 0.1));
         Self { lands, grooves, radius, place, load, aside }
     }
 

@@ -10,7 +10,7 @@
 //! | free, next to a corner, or beyond one at an end | held there |
 //! | free, beyond a corner by hardly more than x is known | held there |
 //! | held, and nothing found, or contacts that vanish or meet | let go, where it was |
-//! | held, K < 0 | let go inward, to where it was or else to where P = 0, the lowest first |
+//! | held, K < 0 | let go inward, to about where P = 0, the lowest first |
 //! | held, K > 0, inside the bodies | put beyond the corner by d, the furthest first |
 //! | held, K > 0, d/L less than the rounding of x over d | held: d is the error of the limit |
 //!
@@ -338,13 +338,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let lower = |one: Held<T>, other: Held<T>| if other.2 < one.2 { other } else { one };
         let lowest = held.iter().copied().reduce(lower);
         if let Some((contact, side, _)) = lowest.filter(|held| held.2 < T::zero()) {
-            let Workspace { newton, before, .. } = &*self.work.workspace;
-            let (on, outward) = (newton.on[contact], outward::<T>(side));
-            let as_before = before.get(contact).map(|last| outward * (last[side] - on[side]));
-            let inward = match as_before.filter(|away| *away < T::zero()) {
-                Some(inward) => inward,
-                None => -self.retreat(found, contact, side)?,
-            };
+            let inward = -self.retreat(found, contact, side)?;
             self.let_go(contact, side, inward);
             return Ok(true);
         }
