@@ -118,8 +118,6 @@ pub(super) struct Linearised<T> {
     /// Unit of force, per unit length.
     scale: T,
     stiffness: T,
-    /// Angle by which the bodies turn.
-    pub tilt: T,
 }
 
 /// Step from an interval and a load.
@@ -218,8 +216,7 @@ impl<T: Real> Linearised<T> {
             Given::HalfWidth(_) => Matrix2::new(ba + bb, force_b, aa + ab, force_a),
         };
         let by_load = !matches!(conditions.given, Given::HalfWidth(_));
-        let tilt = conditions.tilt(on, m);
-        Some(Self { jacobian, residual, matrix, by_load, is_balance, scale, stiffness, tilt })
+        Some(Self { jacobian, residual, matrix, by_load, is_balance, scale, stiffness })
     }
 
     /// Returns the step from an interval; `None` if the limits do not act on the slope, as on a

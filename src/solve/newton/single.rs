@@ -198,12 +198,14 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
         m: &Moments<T>,
     ) -> Fallible<T, Option<Verdict<T>>> {
         let (on, load, size) = (trial.on, trial.load, step.size());
+        let tilt = || self.conditions.tilt(step.from, m);
         let sizes = step.limits.map(|step| step.abs());
         if self.effort == Effort::Guess {
             let guessed = Converged { on, load, error: size, load_error: size };
             trial.progress.note(sizes);
-            return Ok((size <= T::of(MAX_GUESS_STEP))
-                .then(|| if self.is_sound(system, on) { Ok(guessed) } else { Err(Stop::Failed) }));
+            return Ok((size <= T::of(MAX_GUESS_STEP)).then(|| {
+                if self.is_sound(system, on, tilt()) { Ok(guessed) } else { Err(Stop::Failed) }
+            }));
         }
         let judged = trial.progress.judge(sizes);
         // A step across a kink is as much too long as the one before it was.
@@ -218,7 +220,7 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
             let stalled =
                 judged.is_stalled && size <= doubtful(least) && system.is_met(m, rounding);
             if done || stalled {
-                if !self.is_sound(system, on) || least > T::of(MAX_DOUBT) {
+                if !self.is_sound(system, on, tilt()) || least > T::of(MAX_DOUBT) {
                     return Ok(Some(Err(Stop::Failed)));
                 }
                 let left_over = if stalled { sizes } else { judged.next };
@@ -242,12 +244,12 @@ impl<T: Real> NewtonSingle<'_, '_, T> {
 
     /// Tells whether the bodies, turned, open at the free edges of a contact that grows with its
     /// load.
-    fn is_sound(&self, system: &Linearised<T>, on: Interval<T>) -> bool {
+    fn is_sound(&self, system: &Linearised<T>, on: Interval<T>, tilt: T) -> bool {
         let edges = self.conditions.edges;
         let opens = |side: Side| {
             let outward = if side == Side::Left { -T::one() } else { T::one() };
             let slope = self.integrator.slope(on[side]);
-            slope.is_none_or(|slope| (slope + system.tilt) * outward >= T::zero())
+            slope.is_none_or(|slope| (slope + tilt) * outward >= T::zero())
         };
         // Under adhesion the bodies need not open at the other edge, either.
         let open = edges.are_adhesive()

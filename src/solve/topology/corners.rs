@@ -235,15 +235,15 @@ impl<T: Real> Search<'_, '_, '_, T> {
         let least = least_rise(self.conditions.load() / self.contact.kappa / all);
         let mut parted = Vec::with_capacity(on.len());
         for mut on in on {
-            let [reach, narrow] = [SHORT_WALL, NEAR_CORNER].map(|by| T::of(by) * on.half_width());
-            let mut from = None;
+            let (narrow, mut from) = (T::of(NEAR_CORNER) * on.half_width(), None);
             for z in self.breakpoints(on.left, on.right) {
+                if self.contact.gap.jump(z)[0] <= least {
+                    continue;
+                }
+                // The foot of the wall is no end.
                 let mut ends = [false; 2];
                 for side in Side::BOTH {
-                    let corner = self.corner(z, side)?;
-                    // The foot of the wall is no end.
-                    ends[side as usize] = outward::<T>(side) * corner.slope > -least
-                        && self.steepest_beyond(&corner, reach)? > least;
+                    ends[side as usize] = outward::<T>(side) * self.corner(z, side)?.slope > -least;
                 }
                 if let Some(end) = from.filter(|&from| ends[0] && z - from <= narrow) {
                     parted.push(Interval { right: end, ..on });
