@@ -70,12 +70,16 @@ impl Scene {
     }
 }
 
-/// Returns the number of scenes solved, and the faults.
-fn faults(is_scratched: bool) -> (usize, Vec<String>) {
-    let count = std::env::var("SCENES").map_or(100, |count| count.parse().unwrap());
-    let first = std::env::var("FIRST").map_or(0, |first| first.parse().unwrap());
+/// Solves and certifies a hundred random scenes and some more, or as many as `SCENES` in the
+/// environment says.
+fn check(is_scratched: bool, more: &[u64]) {
+    let scenes = std::env::var("SCENES").ok().map(|count| count.parse().unwrap());
+    let seeds: Vec<u64> = match scenes {
+        Some(count) => (0..count).collect(),
+        None => (0..100).chain(more.iter().copied()).collect(),
+    };
     let (mut solved, mut faults) = (0, Vec::new());
-    for seed in first..first + count {
+    for &seed in &seeds {
         let mut random = Shares(seed);
         random.between(0.0, 1.0);
         let scene = Scene::new(&mut random, is_scratched);
@@ -89,13 +93,7 @@ fn faults(is_scratched: bool) -> (usize, Vec<String>) {
             Some(aside) => Control::CentreOfPressure { load, at: place + aside },
             None => Control::Load(load),
         };
-        let start = std::time::Instant::now();
-        let solution = contact.solve(control);
-        let time = start.elapsed().as_secs_f64();
-        if time > 2.0 {
-            println!("{seed} {time} s");
-        }
-        match solution {
+        match contact.solve(control) {
             Ok(solution) => {
                 solved += 1;
                 if let Err(error) = solution.certify() {
@@ -108,18 +106,19 @@ fn faults(is_scratched: bool) -> (usize, Vec<String>) {
             Err(error) => faults.push(format!("{seed} {scene:?}: {error}")),
         }
     }
-    println!("{solved} of {count} solved, {} faults", faults.len());
-    (solved, faults)
+    println!("{solved} of {} solved, {} faults", seeds.len(), faults.len());
+    assert!(faults.is_empty() && 5 * solved > 4 * seeds.len(), "{}", faults.join("\n"));
 }
 
+/// Cells see no slit that is narrower than they are; next to one a worn land may be left within
+/// less than its hundredth.
 #[test]
 fn lands_with_slits() {
-    let (_, faults) = faults(false);
-    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    check(false, &[109, 121]);
 }
 
+/// At the foot of a shallow scratch the gap is as narrow as rounding, or ends on its wall.
 #[test]
 fn planes_with_scratches() {
-    let (_, faults) = faults(true);
-    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    check(true, &[549, 570]);
 }

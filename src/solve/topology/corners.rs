@@ -39,8 +39,8 @@ const SHARP: f64 = 0.1;
 /// Distance beyond a corner within which the gap opens so far, as a share of the half-width.
 const SHORT_WALL: f64 = 1e-4;
 
-/// Share of a contact's half-width by which a limit leaves a corner inward; and from which one
-/// found free beside a corner is sought as free in the next set, too.
+/// Share of a contact's half-width by which a limit leaves a corner inward at most; and from which,
+/// or from the width of the gap there, one found free is sought as free in the next set, too.
 const STEP_INWARD: f64 = 0.01;
 
 /// Least ratio of distances d that are let go together.
@@ -130,7 +130,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 let share = on.half_width() / width;
                 let corner = self.corner_next_to(i, side, mean * share.min(T::one()))?;
                 // Beside other contacts, a limit found free is about where it was.
-                let away = |z: T| (on[side] - z).abs() > T::of(STEP_INWARD) * on.half_width();
+                let step = T::of(STEP_INWARD) * on.half_width();
+                let gap = self.next_limit(i, side).map_or(step, |next| (next - on[side]).abs());
+                let away = |z: T| (on[side] - z).abs() > gap.min(step);
                 let is_free = |&z: &T| away(z) && self.free.contains(&on[side]);
                 if let Some(z) = corner.filter(|z| !is_free(z)) {
                     self.hold_at(i, side, z);
