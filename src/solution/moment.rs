@@ -18,9 +18,9 @@ impl<T: Real> Solution<'_, T> {
 
     /// Returns the moment of the pressure about x = 0, `∫ x P dx`: a force. Its error is the
     /// rounding of F times the largest x of the contact; of several contacts with kinks of the
-    /// slope some 1e-12 of F L, and more where a limit is so close to a corner that x rounds their
-    /// distance: by that share of the load there. With [`Midpoint`](crate::Midpoint), whose
-    /// pressures between its points are good to a thousandth, it is some 1e-3 of F L.
+    /// slope some 1e-12 of F L, and more next to a corner: F L times the share by which x rounds
+    /// the distance of a limit from it. With [`Midpoint`](crate::Midpoint), whose pressures
+    /// between its points are good to a thousandth, it is some 1e-3 of F L.
     ///
     /// # Errors
     /// Those of [`pressure`](Self::pressure);

@@ -283,8 +283,8 @@ impl<T: Real> Density<T> for Pressure<'_, T> {
         let Self { gap, integrator, load_case, on, .. } = self;
         let LoadCase { kappa, load, .. } = *load_case;
         let panels = integrator.panels_over(gap, *on)?;
-        // An integral of the pressure hangs on a free limit, which x rounds, by the square of its
-        // error only if the strength that rounding leaves there is among its terms.
+        // With the strength that the rounding of a free limit leaves there, this rounding changes
+        // integrals of the pressure to second order only.
         let [left_over, held] = panels.strengths(load_case);
         let strengths = left_over.zip(held).map(|(free, held)| free + held);
         let of =

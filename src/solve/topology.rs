@@ -61,7 +61,8 @@ pub(super) struct Search<'s, 'w, 'b, T: Real> {
     cells: usize,
     /// Set before the last revision of one.
     earlier: Vec<Interval<T>>,
-    /// Limits found free in the last set, if it is revised where it has a fault.
+    /// Limits found free in the last set, if it is revised where it has a fault, and the ends of
+    /// the spans of tension at which it is parted.
     free: Vec<T>,
     /// Single contacts in which a feature was lost to the panels.
     lost: Vec<Interval<T>>,

@@ -165,7 +165,6 @@ fn a_parabola_held_by_one_corner() {
     }
 }
 
-/// Bodies with two corners, of which one, both or none hold the contact.
 /// Next to a corner the rounding of a limit, over its distance from there, is not left in the
 /// moment, nor in the tilt: without a tilt the moment is that of the load by itself.
 #[test]
@@ -185,6 +184,7 @@ fn the_moment_of_a_limit_beside_a_corner() {
     }
 }
 
+/// Bodies with two corners, of which one, both or none hold the contact.
 #[test]
 fn corners_hold_as_the_load_moves() {
     let body = parabola(3.0);

@@ -20,11 +20,14 @@
 //! `E = f (c - x̄)/L + κ L m₂/2`,
 //!
 //! ```text
-//! both free:  Δ + E = 0 at -b,  Δ - E = 0 at a,  f = κ L m₁  then  τ = -m₀
-//! a given:    Δ/2 + E = 0 at -b,                 f = F       then  τ = m₁ - F/(κ L) - m₀
-//! -b given:   Δ/2 - E = 0 at a,                  f = F       then  τ = F/(κ L) - m₁ - m₀
-//! both given:                                                τ = m₂ - m₀ + 2 F (c - x̄)/(κ L²)
+//! both free:  Δ + E = 0 at -b,  Δ - E = 0 at a,  f = κ L m₁
+//! a given:    Δ/2 + E = 0 at -b,                 f = F
+//! -b given:   Δ/2 - E = 0 at a,                  f = F
+//! then        τ = m₂ - m₀ + 2 F (c - x̄)/(κ L²)
 //! ```
+//!
+//! (Where limits are free τ is also -m₀, or follows from m₁; but so the rounding of a limit next to
+//! a corner changes it to first order, and by m₂ to second order.)
 //!
 //! (With the load carried by a trial in place of F, `E` rises with c on every convex body, however
 //! far off the trial is: by `κ L/2 (1/π) ∫ g' dθ`, since `m₁ = (L/π) ∫ g' sin² θ dθ`.)

@@ -277,7 +277,7 @@ impl<T: Real> NewtonSeveral<T> {
             return Err(self.gone());
         }
         if !self.system.factor() {
-            // The conditions of a contact that vanishes are alike in the end.
+            // The conditions of a vanishing contact, or of a closing gap, are alike in the end.
             let vanishes = self.cut.iter().any(|&times| times >= MAX_CUT_STEPS);
             return Err(if vanishes { self.gone() } else { Fault::Failed });
         }

@@ -377,8 +377,8 @@ impl<T: Real> Search<'_, '_, '_, T> {
         Ok(!beyond.is_empty())
     }
 
-    /// Returns the distance from a corner that pulls at which the pressure turns positive, to a
-    /// factor of four: beside a slit that is far less than the width.
+    /// Returns the distance inward from a corner that pulls to where the pressure turns positive,
+    /// within a factor of four. Next to a slit it is far less than the width of the contact.
     fn retreat(&mut self, found: &ContactState<T>, contact: usize, side: Side) -> Fallible<T, T> {
         let (on, kappa) = (self.work.workspace.newton.on[contact], self.contact.kappa);
         let (half_width, outward) = (on.half_width(), outward::<T>(side));

@@ -222,7 +222,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
                 [left, right].into_iter().filter(|on| on.left < on.right)
             };
             *on = on.drain(..).flat_map(apart).collect();
-            // A corner further away does not hold them.
+            // These ends are exact: no corner further away than the span is wide holds them.
             self.free.extend([span.left, span.right]);
         }
         let half = T::of(0.5);
