@@ -257,9 +257,9 @@ fn may_have_several<T: Real>(
     error: &ContactError<T>,
     work: &Work<'_, T>,
 ) -> bool {
-    use SolveError::{HalfWidthTooLarge, NoEquilibrium, Overlap, Tension};
+    use SolveError::{HalfWidthTooLarge, NoEquilibrium, NoFirstContact, Overlap, Tension};
     let ContactError::Solve(error) = error else { return false };
-    let may_jump = matches!(error, NoEquilibrium { .. });
+    let may_jump = matches!(error, NoEquilibrium { .. } | NoFirstContact { .. });
     let may_be_wider = matches!(error, Overlap { .. } | Tension { .. } | HalfWidthTooLarge { .. });
     let is_one = contact.single_interval || contact.gap.is_convex();
     (may_jump || may_be_wider && !is_one) && work.may_find_several(contact)

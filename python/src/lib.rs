@@ -35,7 +35,7 @@ mod _native {
     #[pymodule_export]
     use super::profile::Profile;
     #[pymodule_export]
-    use super::scene::{Scene, Solver, SpringTable, contact_modulus, searches};
+    use super::scene::{Scene, Solver, SpringTable, contact_modulus, pin_in_hole, searches};
     #[pymodule_export]
     use super::solution::{LoadRates, PartialSlip, Solution};
     #[pymodule_export]

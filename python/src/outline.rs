@@ -17,6 +17,7 @@ fn drawn(start: [f64; 2], steps: &[Step]) -> PyResult<Outline<f64>> {
         Ok(match (name.as_str(), numbers.as_slice()) {
             ("line", &[length]) => outline.line(length),
             ("arc", &[radius, length]) => outline.arc(radius, length),
+            ("wall", &[height]) => outline.wall(height),
             ("corner", &[slope]) => outline.corner(slope),
             ("fillet", &[radius]) => outline.fillet(radius),
             ("chamfer", &[before, behind]) => outline.chamfer(before, behind),

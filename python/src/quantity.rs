@@ -75,6 +75,18 @@ impl Quantity {
     }
 }
 
+impl Quantity {
+    /// Returns what tells this quantity of a largest value that is infinite at x.
+    pub fn infinite(self) -> Option<fn(f64) -> f64> {
+        match self {
+            Self::PeakX | Self::MaxShearX => Some(|x| x),
+            Self::PeakPressure | Self::MaxShear => Some(|_| f64::INFINITY),
+            Self::PeakError | Self::MaxShearDepth => Some(|_| 0.0),
+            _ => None,
+        }
+    }
+}
+
 /// Source of quantities of one solution: results that several quantities share are computed once.
 pub struct Asked<'s, T: Real> {
     solution: &'s Solution<'s, T>,

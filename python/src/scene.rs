@@ -5,6 +5,7 @@ use crate::control::{Choice, Prescribed, ReferenceRow, control, none_such, refer
 use crate::profile::{AsTheyAre, Lift, Profile};
 use crate::solution::{PartialSlip, Solution};
 use linecontact::quadrature::Quadrature;
+use linecontact::reference::PinInHole;
 use linecontact::search::{LimitSearch, StoppingCriteria, strategies};
 use linecontact::{
     Base, Contact, Edge, EdgePressure, Exponents, Foundation, Interval, Layer, Material, Midpoint,
@@ -147,6 +148,22 @@ pub fn contact_modulus(
     let state = plane(state)?;
     let [lower, upper] = [lower, upper].map(|of| material(of, &mut AsTheyAre));
     call::library(py, || state.contact_modulus(lower, upper))
+}
+
+/// Returns the half-angle of a pin in a hole, and the pressures at angles.
+#[pyfunction]
+pub fn pin_in_hole(
+    py: Python<'_>,
+    sizes: [f64; 3],
+    materials: [Elastic; 2],
+    state: &str,
+    angles: Numbers<'_>,
+) -> PyResult<(f64, Array)> {
+    let ([radius, clearance, load], state) = (sizes, plane(state)?);
+    let bodies = materials.map(|of| material(of, &mut AsTheyAre));
+    let form = call::library(py, || PinInHole::under_load(radius, clearance, load, bodies, state))?;
+    let pressures = angles.as_array().iter().map(|&angle| form.pressure(angle)).collect();
+    Ok((form.half_angle(), call::array(py, pressures)))
 }
 
 impl Settings {

@@ -20,6 +20,29 @@ fn top(Peak { x, pressure, error }: Peak<f64>) -> Top {
     (x, pressure, error)
 }
 
+/// Takes an infinite value for the largest, at the corner that has it, as arrays and tables do.
+fn or_infinite<R>(
+    found: Result<R, ContactError<f64>>,
+    infinite: impl FnOnce(f64) -> R,
+) -> Result<R, ContactError<f64>> {
+    match found {
+        Err(ContactError::Evaluation(EvaluationError::Singular { x })) => Ok(infinite(x)),
+        found => found,
+    }
+}
+
+/// Returns the largest pressure, `inf` at the corner that has it.
+fn peak(solution: &linecontact::Solution<'_, f64>) -> Result<Top, ContactError<f64>> {
+    or_infinite(solution.peak().map(top), |x| (x, f64::INFINITY, 0.0))
+}
+
+/// Returns the largest stress below, `inf` on the surface at the corner that has it.
+fn or_at_corner(
+    found: Result<StressPeak<f64>, ContactError<f64>>,
+) -> Result<Largest, ContactError<f64>> {
+    or_infinite(found.map(largest), |x| (x, 0.0, f64::INFINITY))
+}
+
 /// Takes zero for the gap, or its slope, at a place in a contact.
 fn or_zero(found: Result<f64, ContactError<f64>>) -> Result<f64, ContactError<f64>> {
     match found {
@@ -57,10 +80,10 @@ fn name(variant: impl Debug) -> String {
 pub struct Solution(pub linecontact::Solution<'static, f64>);
 
 /// Interval, load, strengths, peak, moment, centre of pressure, and flags: held at corners.
-type Region = (Pair, f64, Pair, Option<Top>, f64, Option<f64>, (bool, bool));
+type Region = (Pair, f64, Pair, Top, f64, Option<f64>, (bool, bool));
 
 /// Intervals, load, loads, κ, tilt, mean pressure, peak and centre of pressure.
-type Row = (Vec<Pair>, f64, Vec<f64>, f64, f64, f64, Option<Top>, Option<f64>);
+type Row = (Vec<Pair>, f64, Vec<f64>, f64, f64, f64, Top, Option<f64>);
 
 /// Least ratio of pressures, least gap, spacing and cost.
 type Proof = (Option<Pair>, Option<Pair>, f64, Counts, bool);
@@ -103,6 +126,30 @@ pub fn body(name: &str) -> PyResult<Body> {
 }
 
 impl Solution {
+    /// Takes an infinite pressure, or tension, for its value at a corner, as NumPy does.
+    fn or_infinite(
+        &self,
+        x: f64,
+        found: Result<f64, ContactError<f64>>,
+    ) -> Result<f64, ContactError<f64>> {
+        if !matches!(found, Err(ContactError::Evaluation(EvaluationError::Singular { .. }))) {
+            return found;
+        }
+        let strength = |one: &linecontact::ContactRegion<f64>| {
+            let Ends { left, right } = one.edge_singularities;
+            let inside = one.interval.contains(x).then_some(1.0);
+            if x == one.interval.left {
+                Some(left)
+            } else if x == one.interval.right {
+                Some(right)
+            } else {
+                inside
+            }
+        };
+        let strength = self.0.contacts()?.iter().find_map(strength);
+        strength.map_or(found, |strength| Ok(f64::INFINITY.copysign(strength)))
+    }
+
     /// Prepares the stress below one body, or below both alike, from one depth to another.
     fn below(
         &self,
@@ -218,9 +265,13 @@ impl Solution {
     fn pressure(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
         let x = x.as_array().to_vec();
         let pressures = call::library(py, || {
-            let mut pressures = vec![0.0; x.len()];
-            self.0.pressure()?.at_many(&x, &mut pressures)?;
-            Ok::<_, ContactError<f64>>(pressures)
+            let (mut pressures, pressure) = (vec![0.0; x.len()], self.0.pressure()?);
+            match pressure.at_many(&x, &mut pressures) {
+                Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => {
+                    x.iter().map(|&x| self.or_infinite(x, pressure.at(x))).collect()
+                }
+                found => found.map(|()| pressures),
+            }
         })?;
         Ok(call::array(py, pressures))
     }
@@ -229,9 +280,11 @@ impl Solution {
         let x = x.as_array().to_vec();
         let (values, errors) = call::library(py, || {
             let pressure: Pressure<'_, f64> = self.0.pressure()?;
-            let estimate = |&x| pressure.estimate(x, &mut Cost::default());
-            let found = x.iter().map(|x| estimate(x).map(|found| (found.value, found.error)));
-            found.collect::<Result<(Vec<f64>, Vec<f64>), ContactError<f64>>>()
+            let estimate = |&x| match pressure.with_error(x) {
+                Ok(found) => Ok((found.value, found.error)),
+                Err(error) => self.or_infinite(x, Err(error)).map(|infinite| (infinite, 0.0)),
+            };
+            x.iter().map(estimate).collect::<Result<(Vec<f64>, Vec<f64>), ContactError<f64>>>()
         })?;
         Ok((call::array(py, values), call::array(py, errors)))
     }
@@ -244,7 +297,7 @@ impl Solution {
     }
 
     fn peak(&self, py: Python<'_>) -> PyResult<Top> {
-        call::library(py, || self.0.peak()).map(top)
+        call::library(py, || peak(&self.0))
     }
 
     #[getter]
@@ -261,7 +314,8 @@ impl Solution {
         let contacts = call::library(py, || self.0.contacts())?;
         let region = |contact: &linecontact::ContactRegion<f64>| {
             let Ends { left, right } = contact.edge_singularities;
-            let peak = contact.peak.map(top);
+            let infinite = || (contact.infinite_at.unwrap_or(f64::NAN), f64::INFINITY, 0.0);
+            let peak = contact.peak.map_or_else(infinite, top);
             let centre = contact.centre_of_pressure().ok();
             let held = (contact.held.left, contact.held.right);
             let (strengths, moment) = ((left, right), contact.moment());
@@ -295,7 +349,7 @@ impl Solution {
         friction: f64,
     ) -> PyResult<Largest> {
         let of = of.map(body).transpose()?;
-        call::library(py, || self.below(of, depths, friction)?.max_shear()).map(largest)
+        call::library(py, || or_at_corner(self.below(of, depths, friction)?.max_shear()))
     }
 
     fn max_von_mises(
@@ -307,12 +361,16 @@ impl Solution {
         friction: f64,
     ) -> PyResult<Largest> {
         let of = of.map(body).transpose()?;
-        call::library(py, || self.below(of, depths, friction)?.max_von_mises(poisson)).map(largest)
+        call::library(py, || or_at_corner(self.below(of, depths, friction)?.max_von_mises(poisson)))
     }
 
     fn max_tension(&self, py: Python<'_>, of: Option<&str>, friction: f64) -> PyResult<Pair> {
         let of = of.map(body).transpose()?;
-        call::library(py, || self.below(of, None, friction)?.max_tension()).map(extremum)
+        call::library(py, || {
+            or_infinite(self.below(of, None, friction)?.max_tension().map(extremum), |x| {
+                (x, f64::INFINITY)
+            })
+        })
     }
 
     fn gap(&self, py: Python<'_>, x: Numbers<'_>) -> PyResult<Array> {
@@ -373,9 +431,12 @@ impl Solution {
     }
 
     fn summary(&self, py: Python<'_>) -> PyResult<Row> {
-        let row = call::library(py, || self.0.summary())?;
+        let (row, peak) = call::library(py, || {
+            let row = self.0.summary()?;
+            let peak = row.peak.map_or_else(|| peak(&self.0), |found| Ok(top(found)))?;
+            Ok::<_, ContactError<f64>>((row, peak))
+        })?;
         let intervals = row.intervals.iter().map(pair).collect();
-        let peak = row.peak.map(top);
         let (kappa, mean, centre) = (row.kappa, row.mean_pressure, row.centre_of_pressure);
         Ok((intervals, row.load, row.loads, kappa, row.tilt, mean, peak, centre))
     }
@@ -455,16 +516,18 @@ impl PartialSlip {
 
     fn max_shear(&self, py: Python<'_>, of: &str) -> PyResult<Largest> {
         let of = body(of)?;
-        call::library(py, || self.0.subsurface(of)?.max_shear()).map(largest)
+        call::library(py, || or_at_corner(self.0.subsurface(of)?.max_shear()))
     }
 
     fn max_von_mises(&self, py: Python<'_>, of: &str, poisson: f64) -> PyResult<Largest> {
         let of = body(of)?;
-        call::library(py, || self.0.subsurface(of)?.max_von_mises(poisson)).map(largest)
+        call::library(py, || or_at_corner(self.0.subsurface(of)?.max_von_mises(poisson)))
     }
 
     fn max_tension(&self, py: Python<'_>, of: &str) -> PyResult<Pair> {
         let of = body(of)?;
-        call::library(py, || self.0.subsurface(of)?.max_tension()).map(extremum)
+        call::library(py, || {
+            or_infinite(self.0.subsurface(of)?.max_tension().map(extremum), |x| (x, f64::INFINITY))
+        })
     }
 }

@@ -48,15 +48,15 @@ fn row(
             for (number, &quantity) in numbers.iter_mut().zip(wanted) {
                 match asked.value(quantity) {
                     Ok(value) => *number = value,
-                    // At a corner an infinite peak is a result, not a failure.
-                    Err(ContactError::Evaluation(EvaluationError::Singular { .. }))
-                        if quantity == Quantity::PeakPressure =>
-                    {
-                        *number = f64::INFINITY;
-                    }
-                    Err(error) => {
-                        failed.get_or_insert(error);
-                    }
+                    // What is infinite at a corner is a result, not a failure.
+                    Err(error) => match (quantity.infinite(), &error) {
+                        (Some(at), ContactError::Evaluation(EvaluationError::Singular { x })) => {
+                            *number = at(*x);
+                        }
+                        _ => {
+                            failed.get_or_insert(error);
+                        }
+                    },
                 }
             }
         }

@@ -99,23 +99,16 @@ def test_the_numbers_are_those_of_the_solver(name: str, tmp_path: Path) -> None:
         assert frame["checked"] == solution.is_checked
         assert [(one["left"], one["right"]) for one in frame["contacts"]] == list(solution.intervals)
         assert [one["load"] for one in frame["contacts"]] == list(summary.loads)
-        if summary.peak is None:
-            assert frame["peak"]["pressure"] is None
-        else:
-            assert frame["peak"] == summary.peak._asdict()
-        try:
-            largest = solution.max_shear()
-            assert frame["shear"] == largest._asdict() and left < largest.x < right
-        except lc.errors.SingularError:
-            assert frame["shear"]["value"] is None
+        largest = solution.max_shear()
+        assert left <= largest.x <= right
+        for shown, found in ((frame["peak"], summary.peak), (frame["shear"], largest)):
+            assert shown == {key: None if value == math.inf else value for key, value in found._asdict().items()}
 
         x, pressures, gap = (array(frame[key]) for key in ("x", "pressure", "gap"))
         assert np.all(np.diff(x) > 0.0) and left <= x[0] and x[-1] <= right
         finite = np.isfinite(pressures)
         np.testing.assert_array_equal(pressures[finite], solution.pressure(x[finite]))
-        for place in x[~finite]:
-            with pytest.raises(lc.errors.SingularError):
-                solution.pressure(place)
+        assert np.all(np.isinf(solution.pressure(x[~finite])))
         np.testing.assert_array_equal(gap, solution.gap(x))
         low, high = frame["pressure_axis"]
         assert low <= 0.0 < high < 1e3 * summary.mean_pressure or name == "adhesive"
@@ -200,10 +193,9 @@ def test_the_traction_is_that_of_partial_slip(name: str, tmp_path: Path) -> None
         if frame["peak"]["pressure"] is not None:
             assert low <= np.min(traction) and np.max(traction) <= high
         for key, of in (("tension", slip.max_tension), ("shear", slip.max_shear)):
-            try:
-                assert frame[key] == of(body="lower")._asdict()
-            except lc.errors.SingularError as infinite:
-                assert frame[key]["value"] is None and frame[key]["x"] == infinite.x
+            exact = of(body="lower")
+            assert frame[key]["x"] == exact.x
+            assert frame[key]["value"] == (exact.value if math.isfinite(exact.value) else None)
         at, depth, shear = shear_of(frame["field"])
         exact = slip.stress(at, depth[1:, None], body="lower").max_shear()
         np.testing.assert_allclose(shear[1:], exact, rtol=0.0, atol=0.51 * frame["field"]["unit"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -134,3 +135,21 @@ def test_refused(path: Path) -> None:
         lc.solve(lower, upper, kappa=float(want["scale_value"]), load=float(want["C"]) / np.pi)
     error = getattr(raised.value, "source", raised.value)
     assert type(error).__name__ in {f"{want['expected_error']}Error", f"Profile{want['expected_error']}Error"}
+
+
+def test_a_pin_in_a_hole() -> None:
+    steel, brass = lc.Material(210e3, 0.3), lc.Material(100e3, 0.34)
+    bush = lc.PinInHole(10.0, 0.02, 400.0, (steel, steel))
+    # Its pressures carry the load, and the solution for half-planes says how far it is off.
+    angles = np.linspace(-bush.half_angle, bush.half_angle, 20_001)
+    carried = np.trapezoid(bush.pressure(angles) * np.cos(angles), angles) * 10.0
+    assert math.isclose(carried, 400.0, rel_tol=1e-5)
+    pin, hole = (lc.Ellipse.circle(radius, (-1.5, 1.5)) for radius in (10.0, 10.02))
+    solution = lc.solve(hole, pin, materials=(steel, steel), load=400.0)
+    assert solution.conformity is not None
+    assert abs(solution.conformity.too_low - (1.0 - solution.peak().pressure / bush.pressure(0.0))) < 3e-3
+    assert bush.pressure(3.0) == 0.0
+    with pytest.raises(lc.errors.UnlikeBodiesError):
+        lc.PinInHole(10.0, 0.02, 400.0, (steel, brass))
+    with pytest.raises(lc.LineContactError, match="radius"):
+        lc.PinInHole(-10.0, 0.02, 400.0, (steel, steel))

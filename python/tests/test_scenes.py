@@ -153,9 +153,8 @@ def test_what_is_found_can_be_prescribed(scene: tuple[lc.Body, lc.Body, float]) 
     contact = lc.Contact(lower, upper, kappa=1.0)
     by_width = contact.solve(half_width=solution.half_width)
     assert math.isclose(by_width.load, load, rel_tol=1e-9)
-    try:
-        peak = solution.peak().pressure
-    except lc.errors.SingularError:
+    peak = solution.peak().pressure
+    if math.isinf(peak):
         return
     by_peak = contact.solve(peak_pressure=peak)
     assert math.isclose(by_peak.load, load, rel_tol=1e-6)

@@ -835,3 +835,22 @@ def test_measured_points_of_a_period() -> None:
     for count in (-1, 1, 10**9, 3.0):
         with pytest.raises(ValueError, match=r"count is .*: give a whole number from 2 to 1048576"):
             periodic.sample(count)  # type: ignore[arg-type]
+
+
+def test_what_is_infinite_is_infinite_everywhere() -> None:
+    flat = lc.Flat()
+    punch = lc.Contact(flat, flat, kappa=1.0, edges=(lc.Edge.fixed(-1.0), lc.Edge.fixed(1.0)))
+    solution = punch.solve(load=0.3)
+    at_corner = lc.Peak(1.0, math.inf, 0.0)
+    assert solution.peak() == solution.contacts()[0].peak == solution.summary().peak == at_corner
+    np.testing.assert_allclose(solution.pressure([-1.0, 0.0, 1.0]), [math.inf, 0.3 / math.pi, math.inf], rtol=1e-14)
+    values, errors = solution.pressure_estimate([-1.0, 2.0])
+    assert values.tolist() == [math.inf, 0.0] and errors.tolist() == [0.0, 0.0]
+    assert solution.max_shear() == solution.max_von_mises(0.3) == (1.0, 0.0, math.inf)
+    slip = punch.partial_slip(friction=0.3, force=0.01, load=0.3)
+    assert math.isinf(slip.max_tension(body="lower").value) and math.isinf(slip.max_shear(body="lower").value)
+    # At the tip of a wedge, inside; pulled apart by adhesion, the ends have infinite tension.
+    wedge = lc.solve(flat, lc.Wedge((-0.1, 0.1), 1.0), kappa=1.0, load=0.02)
+    assert wedge.peak() == wedge.contacts()[0].peak == lc.Peak(0.0, math.inf, 0.0) and math.isinf(wedge.pressure(0.0))
+    glued = lc.Contact(flat, lc.Parabola(1.0, (-1.0, 1.0)), contact_modulus=1.0, edges=(lc.Edge.adhesive(1e-3),) * 2).solve(load=0.02)
+    assert glued.pressure([-glued.b, glued.a]).tolist() == [-math.inf, -math.inf] and math.isfinite(glued.peak().pressure)

@@ -63,8 +63,9 @@ pub(super) fn along<T: Real>([from, to]: [T; 2]) -> String {
 }
 
 /// Remedy where the contact found is not the whole contact, whatever is given.
-pub(super) const SEVERAL: &str = "change what is given a little, declare kinks as breakpoints, smooth measured points \
-    (Fit::smooth); with adhesion, single_interval, or a search or quadrature of your own only one contact is sought";
+pub(super) const SEVERAL: &str = "the search has gone on from there in vain: step the load to it with a Solver, change it a \
+    little, declare kinks as breakpoints, smooth measured points (Fit::smooth); with adhesion, single_interval, or an own \
+    search or quadrature only one contact is sought";
 
 /// Returns the remedy where no contact of a half-width is in balance.
 pub(super) fn how_to_balance<T: Real>(near: T, half_width: T) -> String {
@@ -79,7 +80,7 @@ pub(super) fn how_to_press<T: Real>(pressure: T) -> &'static str {
     if pressure.is_finite() {
         SEVERAL
     } else {
-        "round off the hollow corner there, or change the load until the contact ends beside it"
+        "step the load to it with a Solver, change it until the contact ends beside that hollow corner, or round the corner off"
     }
 }
 

@@ -124,12 +124,11 @@ pub enum SolveError<T: Real> {
     },
     /// No position of a contact balances the pressures at its two edges, for some half-width.
     #[error(
-        "no contact is found near x = {near}: none of half-width {half_width}, the width asked for or else the \
-         last that was tried, is in balance there; {}",
+        "no contact is found near x = {near}: the last that was tried, of half-width {half_width}, is not in balance; {}",
         how_to_balance(*near, *half_width), near = six(*near), half_width = six(*half_width)
     )]
     NoEquilibrium {
-        /// Half-width asked for, or else the half-width tried last.
+        /// Half-width tried last: the one asked for, if one is.
         half_width: T,
         /// Point of first contact.
         near: T,

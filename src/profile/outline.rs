@@ -21,9 +21,9 @@ use std::sync::Arc;
 
 const SLOPE: &str = "the slope after the corner";
 /// Condition on slopes.
-const SLOPED: &str = "finite; an upright wall has a run, such as 1e-6 of its depth";
+const SLOPED: &str = "finite; an upright wall is drawn by wall";
 /// Condition on lengths along x.
-const LONG: &str = "positive and finite; an upright wall has a run, such as 1e-6 of its depth";
+const LONG: &str = "positive and finite; an upright wall is drawn by wall";
 
 /// Body of an outline: a piece for each line and arc.
 type Outlined<T> = Piecewise<T, Arc<dyn ParametricProfile<T>>>;
@@ -101,6 +101,26 @@ impl<T: Real> Outline<T> {
     /// Draws a straight line over a length along x.
     pub fn line(self, length: T) -> Self {
         self.draw(None, length)
+    }
+
+    /// Draws an upright wall, up by a positive height or down by a negative one. The next segment
+    /// is level, but after a [`corner`](Self::corner). Along x the wall takes 1.5e-8 of its height,
+    /// the root of the machine epsilon, as a curve has one height at each x.
+    ///
+    /// ```
+    /// use linecontact::profile::Outline;
+    ///
+    /// // A land from -1 to 1, and a groove of depth 0.5 on either side.
+    /// let half = Outline::from([0.0, 0.0]).line(1.0).wall(-0.5).line(2.0).wall(0.5).line(1.0);
+    /// assert_eq!(half.mirrored().build()?.pieces(), 10);
+    /// # Ok::<(), linecontact::PiecewiseError<f64>>(())
+    /// ```
+    pub fn wall(mut self, height: T) -> Self {
+        let run = height.abs() * T::epsilon().sqrt();
+        self.next.0 = Some(height / run);
+        let mut drawn = self.draw(None, run);
+        drawn.next.0 = Some(T::zero());
+        drawn
     }
 
     /// Draws an arc of a circle over a length along x.
@@ -221,7 +241,8 @@ impl<T: Real> Segment<T> {
         finite(SLOPE, drawn.corner.0.unwrap_or(zero), true, SLOPED)?;
         finite("the length along x", length, length > zero, LONG)?;
         let Some(radius) = drawn.radius else {
-            return Ok(Self { radius: None, slope: angle.tan(), ends: [zero, length], at });
+            let slope = drawn.corner.0.unwrap_or_else(|| angle.tan());
+            return Ok(Self { radius: None, slope, ends: [zero, length], at });
         };
         finite("the radius", radius, !radius.is_zero(), "finite and not zero")?;
         let from = angle * radius.signum();

@@ -35,9 +35,11 @@ pub struct ContactRegion<T> {
     /// one `P ≈ K/sin θ` with `x = c + L cos θ`, c and L of this contact. Zero, or zero to
     /// rounding, at a free limit.
     pub edge_singularities: Ends<T>,
-    /// Largest pressure; `None` where the pressure is infinite, at a corner or where the slope of
-    /// the gap jumps up.
+    /// Largest pressure; `None` where the pressure is infinite.
     pub peak: Option<Peak<T>>,
+    /// Abscissa where the pressure is infinite, at a corner or where the slope of the gap jumps up;
+    /// `None` where there is a largest pressure.
+    pub infinite_at: Option<T>,
     /// Moment about the centre over the half-width: force per unit length.
     turning: T,
 }
@@ -109,9 +111,11 @@ impl<T: Real> Solved<'_, T> {
             let half_width = interval.half_width();
             let both = |distance: T, strength: T| [strength, -(distance / half_width) * strength];
             let [load, turning] = integrals.over_one(i, interval.centre(), both)?;
-            let peak = match self.peak_in(i, &mut Cost::default()) {
-                Ok((x, top)) => Some(Peak::new(x, integrals.density.with_limits(interval, x, top))),
-                Err(ContactError::Evaluation(EvaluationError::Singular { .. })) => None,
+            let (peak, infinite_at) = match self.peak_in(i, &mut Cost::default()) {
+                Ok((x, top)) => {
+                    (Some(Peak::new(x, integrals.density.with_limits(interval, x, top))), None)
+                }
+                Err(ContactError::Evaluation(EvaluationError::Singular { x })) => (None, Some(x)),
                 Err(error) => return Err(error),
             };
             Ok(ContactRegion {
@@ -124,6 +128,7 @@ impl<T: Real> Solved<'_, T> {
                     .map(|(free, adhesive)| !(free || adhesive)),
                 edge_singularities: self.strengths(i),
                 peak,
+                infinite_at,
                 turning,
             })
         };

@@ -362,7 +362,7 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
     fn bound(&mut self, error: &ContactError<T>, load: T) -> Bound<T> {
         use SolveError::{
             Bending, CompleteContact, DomainTooShort, Falls, LiftsOff, NoEquilibrium,
-            NoFirstContact,
+            NoFirstContact, Overlap, Tension,
         };
         let (wanted, infinite) = (self.wanted, T::one() / T::zero());
         let nan = T::of(f64::NAN);
@@ -383,6 +383,9 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                 _ => Err(error.clone()),
             };
         }
+        let Contact { gap, kappa, edges, .. } = self.contact;
+        let look = self.work.workspace.survey_of(gap);
+        let is_told = look.is_none_or(|look| load >= *kappa * look.doubt_at(look.lowest));
         Ok(ControlFlow::Continue(match *error {
             ContactError::Solve(DomainTooShort { end, carried, half_width, peak, .. }) => {
                 let widest = Capacity { half_width, end, load: carried, peak };
@@ -390,25 +393,38 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                 let known = self.quantity.of_widest(wanted, &widest);
                 let known = known.filter(|_| !self.follows);
                 let (value, too_large) = known.unwrap_or((infinite, error.clone()));
-                if (value - wanted).abs() <= T::of(8.0) * T::epsilon() * wanted {
+                let is_widest = (value - wanted).abs() <= T::of(8.0) * T::epsilon() * wanted;
+                if is_widest {
                     let given = Given::HalfWidth(half_width);
                     let conditions = Conditions { given, ..self.contact.under(carried)? };
-                    return Ok(ControlFlow::Break(self.solve(conditions)?));
+                    // Where corners hold the contacts, smaller loads have the same width.
+                    if let Ok(found) = self.solve(conditions) {
+                        return Ok(ControlFlow::Break(found));
+                    }
                 }
                 // Bodies that touch first at an end bear nothing.
-                if value < wanted || carried.is_zero() {
+                if value < wanted && !is_widest || carried.is_zero() {
                     return Err(too_large);
                 }
-                unknown(carried.min(load), value)
+                unknown(carried.min(load), value.max(wanted))
             }
             ContactError::Solve(Falls { load, .. }) => unknown(load, infinite),
+            // Far too large a first load fails anyhow; bodies bear a smaller one.
+            ContactError::Solve(NoEquilibrium { .. } | Tension { .. } | Overlap { .. })
+                if self.last.is_none() && edges.are_sought() && is_told =>
+            {
+                unknown(load, infinite)
+            }
+            // Parallel bodies touch all along under any load.
+            ContactError::Solve(NoFirstContact { slope, .. })
+                if slope.iter().all(|slope| slope.is_zero()) =>
+            {
+                return Err(error.clone());
+            }
             ContactError::Solve(NoEquilibrium { .. } | NoFirstContact { .. } | LiftsOff { .. }) => {
                 // So small a load is not held by a corner, does not close a hollow, or leaves no
                 // height to tell; unless a smaller one has been borne, and heights tell this one.
                 let is_borne = |at: &Point<T>| at.value > T::zero() && at.load <= load;
-                let Contact { gap, kappa, .. } = self.contact;
-                let look = self.work.workspace.survey_of(gap);
-                let is_told = look.is_none_or(|look| load >= *kappa * look.doubt_at(look.lowest));
                 let is_more = is_told && self.low.iter().chain(&self.high).any(is_borne);
                 unknown(load, if is_more { infinite } else { T::zero() })
             }

@@ -4,7 +4,8 @@
 use crate::common::{Profile, Shares, on_flat};
 use crate::controls::wrong;
 use crate::corners::polygon;
-use linecontact::{Contact, ContactError, Control, SolveError};
+use linecontact::profile::Outline;
+use linecontact::{Contact, ContactError, Control, Flat, SolveError};
 
 /// Returns lands from -1 to 1 of equal slopes beside each, with the heights given.
 fn lands(ends: &[[f64; 2]], heights: &[f64], wall: f64, depth: f64) -> Profile {
@@ -132,4 +133,34 @@ fn of_random_lands() {
     }
     println!("{judged} values");
     assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// The width of many lands with upright walls and narrow slits does not tell their load, and says
+/// so: a first load that is far too large is no failure.
+#[test]
+fn of_many_lands_between_upright_walls() {
+    for seed in 0..20 {
+        let mut shares = Shares(seed + 1);
+        (0..3).for_each(|_| _ = shares.between(0.0, 1.0));
+        let (count, depth) =
+            (1 + shares.between(0.0, 19.9) as usize, shares.power_of_ten(-3.0, 0.0));
+        let mut half = Outline::from([-1.0, depth]).line(1.0);
+        let mut width = 0.0;
+        for _ in 0..count {
+            let [land, slit] = [shares.power_of_ten(-3.5, 0.0), shares.power_of_ten(-4.0, -0.3)];
+            half = half.wall(-depth).line(land).wall(depth).line(slit);
+            width += land + slit;
+        }
+        let body = half.line(1.0).build().unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap().contact_modulus(115e3);
+        for share in [1e-6, 1e-3, 1.0] {
+            let solution = contact.solve(Control::Load(share * width * depth)).unwrap();
+            let half_width = solution.hull().half_width();
+            let found = load(&contact, half_width);
+            assert!(
+                matches!(found, Err(SolveError::LoadUnknown { .. })),
+                "{seed} {share}: {found:?}"
+            );
+        }
+    }
 }

@@ -167,7 +167,7 @@ fn contact_errors() -> Vec<(ContactError<f64>, &'static [&'static str])> {
             ContactError::Solve(SolveError::NoEquilibrium { half_width, near: 15.5 }),
             &[
                 "near x = 15.5",
-                "the width asked for or else the last that was tried",
+                "the last that was tried",
                 "single_interval",
                 "breakpoints",
                 "Fit::smooth",
@@ -523,7 +523,8 @@ fn the_message_of_a_contact_names_its_values() {
 #[test]
 fn the_message_of_what_is_no_contact_says_where_it_is_none_and_what_helps() {
     let (interval, load) = (ON, 1.5);
-    let helps = ["change what is given a little", "breakpoints", "Fit::smooth"];
+    let helps =
+        ["step the load to it with a Solver", "change it a little", "breakpoints", "Fit::smooth"];
     let minus_infinity = f64::NEG_INFINITY;
     for (error, words, helps) in [
         (
@@ -539,7 +540,7 @@ fn the_message_of_what_is_no_contact_says_where_it_is_none_and_what_helps() {
                 load,
             }),
             "-inf",
-            &["round off"],
+            &["Solver", "round the corner off"],
         ),
         (
             ContactError::Solve(SolveError::Overlap { x: 2.5, gap: -3.5, interval, load }),

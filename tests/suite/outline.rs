@@ -280,9 +280,48 @@ fn what_cannot_be_drawn_is_named_by_its_segment() {
     );
     for upright in [start().line(0.0), start().corner(f64::NEG_INFINITY).line(1.0)] {
         let said = upright.build().err().unwrap().to_string();
-        assert!(said.ends_with("an upright wall has a run, such as 1e-6 of its depth"), "{said}");
+        assert!(said.ends_with("an upright wall is drawn by wall"), "{said}");
     }
     let empty = start().build().err();
     assert!(matches!(empty, Some(PiecewiseError::NoPieces)), "{empty:?}");
     assert!(Outline::from([0.0f32, 0.0]).line(1.0).arc(-9.0, 2.0).build().is_ok());
+}
+
+/// Two lands from 1 to 2 and from -2 to -1, of upright walls, below a flat, have known pressures.
+/// Up or down, far from x = 0 or not, with a fillet on either side of the wall.
+#[test]
+fn walls_are_upright() {
+    for (at, depth) in [(0.0, 1.0), (0.0, 1e-3), (0.0, 50.0), (300.0, 0.1)] {
+        let half =
+            Outline::from([at, -depth]).line(1.0).wall(depth).line(1.0).wall(-depth).line(1.0);
+        let lands = half.mirrored().build().unwrap();
+        assert!((ends(&lands)[6][0].y + depth).abs() < 1e-13 * depth);
+        let contact = Contact::new(&lands, &Flat).unwrap().contact_modulus(1.0);
+        let solution = contact.solve(Control::Load(1e-4 * depth)).unwrap();
+        let pressure = solution.pressure().unwrap();
+        let limits: Vec<f64> =
+            solution.intervals().iter().flat_map(|on| [on.left - at, on.right - at]).collect();
+        for (limit, due) in limits.iter().zip([-2.0, -1.0, 1.0, 2.0]) {
+            assert!((limit - due).abs() < 4e-8 * depth.max(1.0), "{limits:?}");
+        }
+        for x in [1.1f64, -1.5, 1.9] {
+            let due = 1e-4 * depth / std::f64::consts::PI * x.abs()
+                / ((x * x - 1.0) * (4.0 - x * x)).sqrt();
+            let got = pressure.at(at + x).unwrap();
+            assert!((got / due - 1.0).abs() < 2e-7 * depth.max(1.0), "{depth}, {x}: {got} {due}");
+        }
+    }
+    for half in [
+        Outline::from([0.0, 0.0]).line(2.0).fillet(0.1).wall(-1.0).line(2.0),
+        Outline::from([0.0, 0.0]).line(2.0).wall(-1.0).fillet(0.1).line(2.0),
+        Outline::from([0.0, 0.0]).line(2.0).wall(1.0).corner(0.1).fillet(0.1).line(2.0),
+    ] {
+        let ends = ends(&half.build().unwrap());
+        assert!((ends.last().unwrap()[1].x - 4.0).abs() < 4e-8, "{ends:?}");
+        assert_eq!(ends.len(), 4, "{ends:?}");
+    }
+    let single = Outline::from([0.0f32, 0.0]).line(1.0).wall(-0.5).line(1.0).build();
+    assert_eq!(single.unwrap().pieces(), 3);
+    let flat = Outline::from([0.0, 0.0]).line(1.0).wall(0.0).line(1.0).build().err().unwrap();
+    assert!(flat.to_string().contains("segment 2"), "{flat}");
 }

@@ -451,3 +451,18 @@ fn kinks_and_a_curved_pair() {
         assert_same(&solution, &known.solve(Control::Load(load)).unwrap(), 1e-12);
     }
 }
+
+/// A load beyond a land is told so, not that the far end of the bodies carries nothing.
+#[test]
+fn a_load_beyond_a_land_has_no_tilt() {
+    let half = Outline::from([0.0, 0.0]).line(0.5).wall(-1.0).line(0.5);
+    let land = half.mirrored().build().unwrap();
+    let contact = Contact::new(&land, &Flat).unwrap().contact_modulus(115e3);
+    for at in [0.51f64, 0.6, 0.9] {
+        let error = contact.solve(Control::CentreOfPressure { load: 1.0, at }).unwrap_err();
+        let ContactError::Solve(SolveError::TiltNotFound { reached, tilt, .. }) = error else {
+            panic!("{at}: {error}")
+        };
+        assert!((reached - 0.5).abs() < 1e-3 && tilt.abs() < 1.0f64, "{at}: {reached} {tilt}");
+    }
+}

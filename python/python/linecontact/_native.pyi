@@ -18,6 +18,7 @@ __all__ = [
     "gradient",
     "outline",
     "parameters",
+    "pin_in_hole",
     "quantities",
     "scene_text",
     "searches",
@@ -56,6 +57,9 @@ def outline(
     left: tuple[_Pair, Sequence[tuple[str, list[float]]]] | None,
 ) -> tuple[list[tuple[float | None, float, _Pair, _Pair]], float]: ...
 def quantities() -> list[str]: ...
+def pin_in_hole(
+    sizes: tuple[float, float, float], materials: tuple[_Elastic, _Elastic], state: str, angles: _Array
+) -> tuple[float, _Array]: ...
 def scene_text(text: str, source: str, to: str) -> str: ...
 def searches() -> list[str]: ...
 def sweep(
@@ -203,7 +207,7 @@ class Solution:
     def contacts(
         self,
     ) -> list[
-        tuple[_Pair, float, _Pair, tuple[float, float, float] | None, float, float | None, tuple[bool, bool]]
+        tuple[_Pair, float, _Pair, tuple[float, float, float], float, float | None, tuple[bool, bool]]
     ]: ...
     def stress(
         self, of: str | None, x: _Array, depth: _Array, friction: float
@@ -231,7 +235,7 @@ class Solution:
         float,
         float,
         float,
-        tuple[float, float, float] | None,
+        tuple[float, float, float],
         float | None,
     ]: ...
     def __str__(self) -> str: ...

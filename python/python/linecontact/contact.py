@@ -6,12 +6,12 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, cast, overload
 
 import numpy as np
 
 from . import _native
-from ._numbers import Range, Unchanging, as_number, as_range, as_references, named, one_of, refusal
+from ._numbers import FloatArray, Numbers, Range, Unchanging, as_number, as_range, as_references, each, named, one_of, refusal
 from .bodies import Body
 from .slipping import PartialSlip, acting
 from .solution import Solution, _ratio
@@ -30,6 +30,7 @@ __all__ = [
     "Material",
     "Midpoint",
     "Panels",
+    "PinInHole",
     "Reference",
     "References",
     "Search",
@@ -206,6 +207,65 @@ def contact_modulus(lower: Sequence[float], upper: Sequence[float], plane: Plane
     58605.2
     """
     return _native.contact_modulus(_elastic(lower), _elastic(upper), plane)
+
+
+class PinInHole:
+    """A pin in a hole of nearly the same radius, pressed into it by a load: Persson's closed form.
+
+    It is for a contact over a wide angle, on which bodies are no half-planes: of a `Solution` the
+    property `conformity` says how far they are. The materials must be alike, or both incompressible.
+
+    Parameters
+    ----------
+    radius : float
+        Radius of the hole: a length.
+    clearance : float
+        Radius of the hole less that of the pin, small beside it: a length.
+    load : float
+        Load per unit length: force/length.
+    materials : (Material, Material)
+        Materials of the pin and of the hole.
+    plane : {"strain", "stress"}
+        As of `contact_modulus`.
+
+    Attributes
+    ----------
+    half_angle : float
+        Half-angle of the contact: radians.
+
+    Raises
+    ------
+    linecontact.errors.UnlikeBodiesError
+        For materials for which there is no closed form.
+
+    Examples
+    --------
+    >>> import linecontact as lc
+    >>> steel = lc.Material(210e3, 0.3)
+    >>> import math
+    >>> bush = lc.PinInHole(10.0, 0.02, 2000.0, (steel, steel))
+    >>> round(math.degrees(bush.half_angle), 2), round(bush.pressure(0.0), 1)
+    (48.17, 167.0)
+    """
+
+    def __init__(
+        self, radius: float, clearance: float, load: float, materials: Sequence[Any], plane: Plane = "strain"
+    ) -> None:
+        sizes = as_number(radius, "radius"), as_number(clearance, "clearance"), as_number(load, "load")
+        pin, hole = _both(materials)
+        self._given = sizes, (_elastic(pin), _elastic(hole)), plane
+        self.half_angle = self._at(np.zeros(0))[0]
+
+    def _at(self, angles: FloatArray) -> tuple[float, FloatArray]:
+        return _native.pin_in_hole(*self._given, angles)
+
+    @overload
+    def pressure(self, angle: float) -> float: ...
+    @overload
+    def pressure(self, angle: Numbers) -> FloatArray: ...
+    def pressure(self, angle: float | Numbers) -> float | FloatArray:
+        """Returns the pressure at an angle from the middle, in radians: zero outside the contact."""
+        return each(lambda angles: self._at(angles)[1], angle)
 
 
 class Edge(NamedTuple):

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .below import bodies as bodies_below
 from .bodies import Placed, Spline
-from .errors import SingularError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -103,10 +103,8 @@ def is_infinite(solution: Solution, strength: float) -> bool:
 
 def highest(solution: Solution) -> float:
     """Returns the largest pressure to be shown: a few mean pressures, if it is infinite."""
-    try:
-        return solution.peak().pressure
-    except SingularError:
-        return _MEANS * abs(solution.mean_pressure)
+    peak = solution.peak().pressure
+    return peak if math.isfinite(peak) else _MEANS * abs(solution.mean_pressure)
 
 
 def _infinite_at(solution: Solution) -> list[float]:
@@ -117,11 +115,8 @@ def _infinite_at(solution: Solution) -> list[float]:
         for x, strength in zip(one.interval, one.edge_singularities, strict=True)
         if is_infinite(solution, strength)
     ]
-    try:
-        solution.peak()
-    except SingularError as infinite:
-        found.append(infinite.x)
-    return sorted(set(found))
+    peak = solution.peak()
+    return sorted({*found, *([peak.x] if peak.pressure == math.inf else [])})
 
 
 def _draw_traction(axes: Axes, slip: PartialSlip) -> float:

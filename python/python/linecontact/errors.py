@@ -855,7 +855,7 @@ class NoEquilibriumError(SolveError):
     Attributes
     ----------
     half_width : float
-        Half-width asked for, or else the half-width tried last.
+        Half-width tried last: the one asked for, if one is.
     near : float
         Point of first contact.
     """

@@ -21,7 +21,7 @@ from .below import bodies, materials
 from .bodies import Body
 from .contact import Contact, Material, contact_modulus
 from .drawing import BESIDE, SHALLOW, before_loading, covered, heights, highest, is_infinite, period
-from .errors import LineContactError, SingularError
+from .errors import LineContactError
 from .slipping import PartialSlip, Side, acting, slipped_again
 from .solution import Solution
 
@@ -195,7 +195,7 @@ def _frame(
     try:
         numbers = {**_numbers(solution), "window": _window(solution)}
         if slip is not None:
-            numbers |= {"stick_zones": slip.stick_zones, "tension": _tension(slip)}
+            numbers |= {"stick_zones": slip.stick_zones, "tension": _shown(slip.max_tension(body="lower"))}
         return {**numbers, **_curves(solution, slip, window), **_field(solution, slip, window, below)}
     except LineContactError as error:
         return error
@@ -208,14 +208,14 @@ def _numbers(solution: Solution) -> dict[str, Any]:
             "left": one.interval.left,
             "right": one.interval.right,
             "load": one.load,
-            "peak": None if one.peak is None else one.peak._asdict(),
+            "peak": _shown(one.peak),
         }
         for one in solution.contacts()
     ]
     return {
         "contacts": contacts,
         "half_width": solution.half_width,
-        "peak": _peak(solution),
+        "peak": _shown(summary.peak),
         "mean_pressure": summary.mean_pressure,
         "centre_of_pressure": summary.centre_of_pressure,
         "limits_error": summary.limits_error,
@@ -224,20 +224,9 @@ def _numbers(solution: Solution) -> dict[str, Any]:
     }
 
 
-def _peak(solution: Solution) -> dict[str, Any]:
-    """Returns the largest pressure and its x; None for an infinite pressure."""
-    try:
-        return solution.peak()._asdict()
-    except SingularError as infinite:
-        return {"x": infinite.x, "pressure": None}
-
-
-def _tension(slip: PartialSlip) -> dict[str, Any]:
-    """Returns the largest tension along the lower surface and its x; None if it is infinite."""
-    try:
-        return slip.max_tension(body="lower")._asdict()
-    except SingularError as infinite:
-        return {"x": infinite.x, "value": None}
+def _shown(largest: Any) -> dict[str, Any]:
+    """Returns a largest value and its place for JSON, which has None for an infinite one."""
+    return {name: value if math.isfinite(value) else None for name, value in largest._asdict().items()}
 
 
 def _curves(solution: Solution, slip: PartialSlip | None, window: Range) -> dict[str, Any]:
@@ -261,8 +250,7 @@ def _curves(solution: Solution, slip: PartialSlip | None, window: Range) -> dict
     given_way = gap - (upper - lower)
     ends = given_way[np.isfinite(given_way)][[0, -1]]
     drawn = pressures[np.isfinite(pressures)]
-    peak = _peak(solution)["pressure"]
-    top = highest(solution)
+    peak, top = solution.peak().pressure, highest(solution)
     least, along = float(np.min(drawn, initial=0.0)), {}
     if slip is not None:
         # Where the pressure is infinite, the traction may be: it is left out there.
@@ -270,7 +258,7 @@ def _curves(solution: Solution, slip: PartialSlip | None, window: Range) -> dict
         traction[finite] = slip.traction(x[finite])
         along = {"traction": _packed(traction)}
         least = min(least, float(np.nanmin(traction)))
-        top = top if peak is None else max(top, float(np.nanmax(traction)))
+        top = max(top, float(np.nanmax(traction))) if math.isfinite(peak) else top
     return {
         **along,
         "shifts": _shifts(solution, window).tolist(),
@@ -302,9 +290,9 @@ def _left_out(solution: Solution, sampled: FloatArray) -> list[tuple[float, floa
         if x not in sampled:
             pressure = math.copysign(math.inf, strength) if is_infinite(solution, strength) else 0.0
             found.append((x, pressure))
-    peak = _peak(solution)
-    if peak["x"] not in (*sampled, *solution.hull):
-        found.append((peak["x"], math.inf if peak["pressure"] is None else solution.pressure(peak["x"])))
+    peak = solution.peak()
+    if peak.x not in (*sampled, *solution.hull):
+        found.append((peak.x, solution.pressure(peak.x)))
     return found
 
 
@@ -371,13 +359,9 @@ def _field(
         shear[drawn] = solution.stress(x, rows[drawn, None], body=body).max_shear()
     else:
         shear = slip.stress(x, rows[:, None], body="lower").max_shear()
-    try:
-        found = solution.max_shear(body=body) if slip is None else slip.max_shear(body="lower")
-        largest: dict[str, Any] = found._asdict()
-        top = largest["value"]
-    except SingularError as infinite:
-        largest = {"x": infinite.x, "depth": 0.0, "value": None}
-        top = float(np.max(shear[depth >= SHALLOW * solution.half_width]))
+    largest = solution.max_shear(body=body) if slip is None else slip.max_shear(body="lower")
+    finite = math.isfinite(largest.value)
+    top = largest.value if finite else float(np.max(shear[depth >= SHALLOW * solution.half_width]))
     unit = float(np.max(shear)) / _STEPS
     field = {
         "x": _packed(x),
@@ -385,7 +369,7 @@ def _field(
         "unit": unit,
         "shear": _base64(np.round(shear / unit).astype("<u2")),
     }
-    return {"shear": largest, "shear_axis": top, "field": field}
+    return {"shear": _shown(largest), "shear_axis": top, "field": field}
 
 
 def _graded(span: Range, centres: FloatArray, widths: FloatArray, count: int) -> FloatArray:

@@ -76,6 +76,13 @@ class Outline:
         """Draws an arc of a circle over a length along x."""
         return self._with("arc", radius=radius, length=length)
 
+    def wall(self, height: float) -> Outline:
+        """Draws an upright wall, up by a positive height or down by a negative one, along x 1.5e-8 of it.
+
+        The next segment is level, but after a `corner`.
+        """
+        return self._with("wall", height=height)
+
     def corner(self, slope: float) -> Outline:
         """Makes a corner: the next segment starts with this slope dY/dX, whatever the slope before."""
         return self._with("corner", slope=slope)
@@ -183,11 +190,13 @@ def read_outline(
     for number, (start, end, bulge) in enumerate(edges, 1):
         run, chord = end[0] - start[0], math.atan2(end[1] - start[1], end[0] - start[0])
         begins, ends = chord - 2.0 * math.atan(bulge), chord + 2.0 * math.atan(bulge)
+        if not bulge and abs(run) <= _TANGENT * math.dist(start, end):
+            # What is behind a wall is level, or has its corner.
+            outline, angle = outline.wall(end[1] - start[1]), 0.0
+            continue
         if run <= 0.0 or max(abs(begins), abs(ends)) > 0.5 * math.pi + _TANGENT:
             where = f"from ({start[0]:g}, {start[1]:g}) to ({end[0]:g}, {end[1]:g})"
-            upright = "is upright: give it a small run, such as 1e-6 of its height"
-            fault = upright if abs(run) <= _TANGENT * math.dist(start, end) else "turns back in x: end it there"
-            raise MeasuredFileError(name, f"segment {number} of the polyline, {where}, {fault}")
+            raise MeasuredFileError(name, f"segment {number} of the polyline, {where}, turns back in x: end it there")
         if abs(begins - angle) > _TANGENT:
             outline = outline.corner(math.tan(max(-0.5 * math.pi, min(0.5 * math.pi, begins))))
         outline = outline.arc(_radius(start, end, bulge), run) if bulge else outline.line(run)

@@ -12,7 +12,7 @@ import numpy as np
 from .below import Below, materials
 from .contact import _layers
 from .drawing import covered
-from .errors import HalfPlanesOnlyError, LineContactError, SingularError
+from .errors import HalfPlanesOnlyError, LineContactError
 from .solution import ROUNDING, Solution, StressPeak, placed
 
 if TYPE_CHECKING:
@@ -92,9 +92,6 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
     def note(of: Callable[[], Iterable[float]], *names: str) -> None:
         try:
             numbers.update(zip(names, of(), strict=True))
-        except SingularError as error:
-            if "peak_x" in names:
-                numbers.update(peak_x=error.x, peak_pressure=math.inf)
         except HalfPlanesOnlyError as error:
             missing[error.quantity] = None
         except LineContactError:
@@ -115,18 +112,12 @@ def solved(scene: Scene, control: Mapping[str, Any], yield_stress: float | None)
 
     def largest(name: str, of: Callable[[Below], StressPeak]) -> None:
         def found() -> StressPeak:
-            peaks = {one.words: finite(one) for one in below}
+            peaks = {one.words: of(one) for one in below}
             if not peaks:
                 return StressPeak(math.nan, math.nan, math.nan)
             if peaks.keys() != {""}:
                 each[name] = peaks
             return peaks[_most(peaks)]
-
-        def finite(one: Below) -> StressPeak:
-            try:
-                return of(one)
-            except SingularError as error:
-                return StressPeak(error.x, 0.0, math.inf)
 
         note(found, f"{name}_x", f"{name}_depth", name)
 

@@ -232,8 +232,8 @@ class ContactRegion(NamedTuple):
         Load per unit length: force/length.
     edge_singularities : (float, float)
         Strengths of the singularities at the left and the right limit: pressures.
-    peak : Peak or None
-        Largest pressure; None if it is infinite.
+    peak : Peak
+        Largest pressure: `inf`, with the x of the corner, where it is infinite.
     moment : float
         Moment about x = 0: a force.
     centre_of_pressure : float or None
@@ -246,7 +246,7 @@ class ContactRegion(NamedTuple):
     interval: Interval
     load: float
     edge_singularities: tuple[float, float]
-    peak: Peak | None
+    peak: Peak
     moment: float
     centre_of_pressure: float | None
     held: tuple[bool, bool]
@@ -269,8 +269,8 @@ class Summary(NamedTuple):
         Tilt of the upper body, counter-clockwise: radians.
     mean_pressure : float
         Load over the widths of all contacts: a pressure.
-    peak : Peak or None
-        Largest pressure and its x; None if it is infinite.
+    peak : Peak
+        Largest pressure: `inf`, with the x of the corner, where it is infinite.
     centre_of_pressure : float or None
         A length; None without a load.
     edge_singularities : (float, float)
@@ -291,7 +291,7 @@ class Summary(NamedTuple):
     kappa: float
     tilt: float
     mean_pressure: float
-    peak: Peak | None
+    peak: Peak
     centre_of_pressure: float | None
     edge_singularities: tuple[float, float]
     limits_error: float | None
@@ -667,12 +667,11 @@ class Solution:
         Returns
         -------
         float or ndarray
-            Pressures, zero outside the contacts.
+            Pressures: zero outside the contacts, `inf` at a corner that is pressed and where the
+            slope of the gap jumps up, `-inf` at an end that pulls.
 
         Raises
         ------
-        linecontact.errors.SingularError
-            Where the pressure is infinite: at a corner that is pressed, or where a slope jumps.
         linecontact.errors.OutsideBodiesError
             Beyond the bodies, and for NaN.
 
@@ -705,7 +704,7 @@ class Solution:
         return self._found.sample(as_count(count, "count", 2, 2**20))
 
     def peak(self) -> Peak:
-        """Returns the largest pressure and its x.
+        """Returns the largest pressure and its x: `inf`, with the x of the corner, where it is infinite.
 
         Examples
         --------
@@ -747,8 +746,7 @@ class Solution:
 
         def region(on: Any, load: float, strengths: Any, peak: Any, *rest: Any) -> ContactRegion:
             interval = Interval(*on)
-            peak = None if peak is None else Peak(*placed([interval], *peak))
-            return ContactRegion(interval, load, strengths, peak, *rest)
+            return ContactRegion(interval, load, strengths, Peak(*placed([interval], *peak)), *rest)
 
         return tuple(region(*found) for found in self._found.contacts())
 
@@ -961,7 +959,7 @@ class Solution:
             kappa,
             tilt,
             mean,
-            None if peak is None else Peak(*placed(self.intervals, *peak)),
+            Peak(*placed(self.intervals, *peak)),
             centre,
             self.edge_singularities,
             self.limits_error,

@@ -76,10 +76,12 @@ impl<T: Real> Search<'_, '_, '_, T> {
             return Err(error);
         }
         let (ends, conditions) = (self.contact.ends(), self.conditions);
+        let mut is_at_end = false;
         let borne = match self.end_touched_first().or(flat) {
             Some(side) => Some(Err(Capacity::nothing(ends[side]))),
             None => self.under_some_load(&conditions).or_else(|| {
                 let side = self.end_that_supports(conditions.at()?)?;
+                is_at_end = true;
                 Some(Err(Capacity::nothing(ends[side])))
             }),
         };
@@ -88,13 +90,13 @@ impl<T: Real> Search<'_, '_, '_, T> {
             Some(Err(widest)) => widest.too_short(conditions.load()),
             None => error,
         };
-        Err(self.nearest().unwrap_or(error))
+        Err(self.nearest(is_at_end).unwrap_or(error))
     }
 
     /// Returns the error with the nearest place where the load can act, between that given and the
     /// middle of the bodies. `None` if it cannot act in the middle, either, or if no limit is near
-    /// an end.
-    fn nearest(&mut self) -> Option<ContactError<T>> {
+    /// an end and none supports the load.
+    fn nearest(&mut self, is_at_end: bool) -> Option<ContactError<T>> {
         let (conditions, ends, half) = (self.conditions, self.contact.ends(), T::of(0.5));
         let (load, at) = (conditions.load(), conditions.at()?);
         let mut find = |at: T| {
@@ -111,8 +113,9 @@ impl<T: Real> Search<'_, '_, '_, T> {
             }
         }
         let (tilt, room) = (found.tilt, self.room(found.interval));
-        let is_at_end = room.left.min(room.right) <= T::of(LEAST_LEFT) * (ends.right - ends.left);
-        is_at_end.then(|| SolveError::TiltNotFound { load, at, reached, tilt, ends }.into())
+        let is_near = room.left.min(room.right) <= T::of(LEAST_LEFT) * (ends.right - ends.left);
+        (is_near || is_at_end)
+            .then(|| SolveError::TiltNotFound { load, at, reached, tilt, ends }.into())
     }
 
     /// Returns the end of the bodies at which the gap is lowest: they bear no load then, unless
