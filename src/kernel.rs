@@ -219,8 +219,9 @@ pub(crate) fn at_least<T: Real>(value: T) -> usize {
     (0..MAX_TERMS).find(|&n| T::count(n) >= value).unwrap_or(MAX_TERMS)
 }
 
-/// Least distance of the next period that is taken, by the period: on the way to a solution.
-const LEAST_DISTANCE: f64 = 2e-4;
+/// Least distance of the next period that is taken, by the period: no less is left by a cut in the
+/// widest gap that is solved. On the way there it may be as narrow as a slit of the bodies.
+const LEAST_DISTANCE: f64 = 4e-3;
 
 /// Largest number of coefficients of a pressure.
 const MAX_TERMS: usize = 2100;
