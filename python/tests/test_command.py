@@ -309,7 +309,7 @@ def test_doubts_are_told(run: Run) -> None:
     text = run(Scene(measured, ({"load": 100.0},), UNITS, "measured"))[1]
     width = measured.solve(load=100.0).uncertainty().half_width
     assert f"half-width +- {width:.1g} mm" in text and "below 1e-12 of half-width" in text
-    rough = measured.solve(load=100.0).contact._set() | {"tolerance": 1e-6}
+    rough = measured.solve(load=100.0).contact.settings | {"tolerance": 1e-6}
     solution = lc.solve(measured.lower, measured.upper, load=100.0, **rough)
     told = re.findall("below (.*) of half-width", run(Scene(solution.contact, ({"load": 100.0},), UNITS))[1])
     assert solution.limits_error is not None and solution.limits_error < float(told[0]) < 1e-4

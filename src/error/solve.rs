@@ -16,7 +16,8 @@ pub enum SolveError<T: Real> {
     /// The bend of the bodies by a period, a layer or another regular kernel has not converged.
     #[error(
         "the bend of the bodies by their period, layer or kernel has not converged in {solves} solves: Eq. (1) is met to \
-         {}; lower the load, as near complete contact of a period, or extend bodies that are narrower than the contact",
+         {}; change the load a little, lower it near complete contact of a period, or extend bodies that are narrower than \
+         the contact",
         six(*residual)
     )]
     Bending {

@@ -20,9 +20,9 @@ const PLACES_IN_GAP: usize = 8;
 /// slope, up to which they are one place.
 const SAME: f64 = 1e-9;
 
-/// Number of places at which the slopes are taken for the load of complete contact: sixteen for
+/// Number of places at which the heights are taken for the load of complete contact: sixteen for
 /// each of 64 waves.
-const SLOPES: usize = 1024;
+const HEIGHTS: usize = 1024;
 
 /// Steps of Newton's method to the lowest pressure of complete contact: from half a place they
 /// leave its rounding.
@@ -184,7 +184,8 @@ impl<T: Real> Gap<'_, T> {
     /// P = F/p + κ/π Σ (b_n cos ω_n x - a_n sin ω_n x)/K(ω_n)
     /// ```
     ///
-    /// given K, with the coefficients `a_n` and `b_n` of g.
+    /// given K, with the coefficients `a_n` and `b_n` of g, from those of the heights: between walls
+    /// no slope tells of them.
     pub(crate) fn complete_load(
         &self,
         kappa: T,
@@ -192,26 +193,33 @@ impl<T: Real> Gap<'_, T> {
         cost: &mut Cost,
     ) -> Fallible<T, T> {
         let Some(period) = self.period else { return Ok(T::one() / T::zero()) };
-        let (step, mut sampler) = (period / T::count(SLOPES), Sampler::default());
-        let slope = |i: usize| sampler.slope(self, self.range[0] + step * T::count(i));
-        let slopes = (0..SLOPES).map(slope).collect::<Result<Vec<T>, _>>()?;
+        let (step, mut sampler) = (period / T::count(HEIGHTS), Sampler::default());
+        let height = |i: usize| sampler.height(self, self.range[0] + step * T::count(i));
+        let heights = (0..HEIGHTS).map(height).collect::<Result<Vec<T>, _>>()?;
+        let highest = heights.iter().fold(T::zero(), |most, h| most.max(h.abs()));
         cost.heights += sampler.cost.evaluations;
-        let turn = |i: usize| T::two_pi() * T::count(i % SLOPES) / T::count(SLOPES);
-        let turns: Vec<[T; 2]> = (0..SLOPES).map(|i| [turn(i).cos(), turn(i).sin()]).collect();
-        let (mut pressures, mut waves) = (vec![T::zero(); SLOPES], Vec::new());
-        for n in 1..SLOPES / 2 {
-            let share = T::of(2.0) / (T::count(SLOPES) * compliance(turn(1) * T::count(n) / step));
-            let [a, b] = [0, 1].map(|which| {
-                let terms = slopes.iter().enumerate();
-                share * terms.fold(T::zero(), |sum, (i, &g)| sum + g * turns[i * n % SLOPES][which])
+        let turn = |i: usize| T::two_pi() * T::count(i % HEIGHTS) / T::count(HEIGHTS);
+        let turns: Vec<[T; 2]> = (0..HEIGHTS).map(|i| [turn(i).cos(), turn(i).sin()]).collect();
+        let (mut pressures, mut waves) = (vec![T::zero(); HEIGHTS], Vec::new());
+        for n in 1..HEIGHTS / 2 {
+            let wave = [0, 1].map(|which| {
+                let terms = heights.iter().enumerate();
+                let turned = |(i, &h): (usize, &T)| h * turns[i * n % HEIGHTS][which];
+                T::of(2.0) / T::count(HEIGHTS) * terms.map(turned).fold(T::zero(), |sum, h| sum + h)
             });
+            // What is rounding is no wave.
+            if wave.iter().all(|h| h.abs() <= T::epsilon() * highest) {
+                continue;
+            }
+            let omega = turn(1) * T::count(n) / step;
+            let [b, a] = [-wave[0], wave[1]].map(|h| omega * h / compliance(omega));
             for (i, pressure) in pressures.iter_mut().enumerate() {
-                let [cos, sin] = turns[i * n % SLOPES];
+                let [cos, sin] = turns[i * n % HEIGHTS];
                 *pressure += b * cos - a * sin;
             }
-            waves.push([turn(1) * T::count(n) / step, b, a]);
+            waves.push([omega, b, a]);
         }
-        let lowest = (1..SLOPES).fold(0, |i, j| if pressures[j] < pressures[i] { j } else { i });
+        let lowest = (1..HEIGHTS).fold(0, |i, j| if pressures[j] < pressures[i] { j } else { i });
         let (mut least, mut x) = (pressures[lowest], step * T::count(lowest));
         // Newton's method from the lowest of the places to the lowest between them.
         for _ in 0..STEPS {

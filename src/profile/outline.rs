@@ -56,6 +56,8 @@ pub struct Outline<T> {
     drawn: Vec<Drawn<T>>,
     /// Corner in front of the segment to be drawn next: its slope behind, and its finish.
     next: (Option<T>, Option<Finish<T>>),
+    /// Run of the wall in front of it.
+    run: Option<T>,
     /// Right half whose mirror image is the left one.
     left: Option<Box<Self>>,
 }
@@ -95,7 +97,7 @@ pub struct Segment<T> {
 impl<T: Real> Outline<T> {
     /// Starts an outline at a point, level.
     pub fn from(start: [T; 2]) -> Self {
-        Self { start, drawn: Vec::new(), next: (None, None), left: None }
+        Self { start, drawn: Vec::new(), next: (None, None), run: None, left: None }
     }
 
     /// Draws a straight line over a length along x.
@@ -104,8 +106,8 @@ impl<T: Real> Outline<T> {
     }
 
     /// Draws an upright wall, up by a positive height or down by a negative one. The next segment
-    /// is level, but after a [`corner`](Self::corner). Along x the wall takes 1.5e-8 of its height,
-    /// the root of the machine epsilon, as a curve has one height at each x.
+    /// is level, but after a [`corner`](Self::corner). Along x the wall takes 1.5e-8 of its height
+    /// from that segment, the root of the machine epsilon, as a curve has one height at each x.
     ///
     /// ```
     /// use linecontact::profile::Outline;
@@ -119,7 +121,7 @@ impl<T: Real> Outline<T> {
         let run = height.abs() * T::epsilon().sqrt();
         self.next.0 = Some(height / run);
         let mut drawn = self.draw(None, run);
-        drawn.next.0 = Some(T::zero());
+        (drawn.next.0, drawn.run) = (Some(T::zero()), Some(run));
         drawn
     }
 
@@ -162,6 +164,8 @@ impl<T: Real> Outline<T> {
     }
 
     fn draw(mut self, radius: Option<T>, length: T) -> Self {
+        let run = self.run.take().filter(|&run| run < length);
+        let length = run.map_or(length, |run| length - run);
         self.drawn.push(Drawn { radius, length, corner: std::mem::take(&mut self.next) });
         self
     }

@@ -109,6 +109,14 @@ impl<T: Real> Solution<'_, T> {
         }
         if let Some(conformity) = self.conformity() {
             write!(f, "\n{conformity}")?;
+        } else if let Some(angle) = self.conforming() {
+            let angle: f64 = angle.to_subset_unchecked();
+            write!(
+                f,
+                "\nthe bodies conform, with {:.1}° at the limits, unlike layers on half-planes: the pressure in the \
+                 middle is too low",
+                angle.to_degrees()
+            )?;
         }
         if self.is_steep() {
             f.write_str(

@@ -180,7 +180,9 @@ impl<T: Real> LoadRates<T> {
             return refuse("the bodies are not pressed together, and have no limits");
         }
         if found.adhesive != Ends::both(false) {
-            return refuse("an adhesive edge moves with a singular pressure");
+            return refuse(
+                "an adhesive edge moves with a singular pressure; prescribe a load in place of an approach",
+            );
         }
         if found.free == Ends::both(false) {
             let Ends { left, right } = found.ends;

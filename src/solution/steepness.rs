@@ -105,8 +105,13 @@ impl<T: Real> Solution<'_, T> {
     /// ```
     #[must_use]
     pub fn conformity(&self) -> Option<Conformity<T>> {
+        if self.gap.bend().is_some() { None } else { self.conforming().map(Conformity::of) }
+    }
+
+    /// Returns the angle at the limits of bodies that conform, on half-planes or with layers.
+    pub(super) fn conforming(&self) -> Option<T> {
         let (free, is_one) = (self.found.free, self.intervals().len() == 1);
-        if !is_one || self.gap.bend().is_some() || !(free.left && free.right) {
+        if !is_one || !(free.left && free.right) {
             return None;
         }
         let (hull, mut sampler) = (self.hull(), Sampler::default());
@@ -125,7 +130,7 @@ impl<T: Real> Solution<'_, T> {
         let is_hollow = [lower, upper].iter().all(|on| on.left > T::zero() && on.right > T::zero());
         let turns = [turn(lower), turn(upper)];
         let conform = is_hollow && turns[0].min(turns[1]) >= T::of(LEAST_CONFORMING);
-        conform.then(|| Conformity::of(T::of(0.5) * (turns[0] + turns[1])))
+        conform.then(|| T::of(0.5) * (turns[0] + turns[1]))
     }
 
     /// Returns the largest slope `|f'|` of either surface within the contacts, before loading: a

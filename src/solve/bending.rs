@@ -331,12 +331,17 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             let corner = joint.filter(|&z| z != x && gap.jump(z)[0] > T::zero());
             corner.map_or(T::zero(), |z| T::epsilon() * (x / (x - z)).abs())
         };
-        let contacts = self.work.integrator.contacts(&found.interval).iter();
-        let shares = contacts.flat_map(|&Interval { left, right }| {
+        let contacts = self.work.integrator.contacts(&found.interval);
+        let several = contacts.len() > 1;
+        let shares = contacts.iter().flat_map(|&Interval { left, right }| {
             let joints = [gap.breakpoint_after(left), gap.breakpoint_before(right)];
             [share(left, joints[0]), share(right, joints[1])]
         });
-        let known = shares.fold(T::epsilon().powf(T::of(0.75)).max(error), T::max);
+        let known = shares.fold(T::epsilon().powf(T::of(2.0 / 3.0)).max(error), T::max);
+        // Between contacts r is known like the heights.
+        let survey = self.work.workspace.survey_of(gap).filter(|_| several);
+        let doubt = survey.map_or(T::zero(), |look| look.doubt_at(look.lowest));
+        let known = known.max(self.contact.kappa * doubt / found.load);
         residual <= (T::of(BELOW) * error).max(rounding())
             || residual <= known && residual > T::of(STALLED) * self.before
     }

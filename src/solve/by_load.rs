@@ -289,19 +289,9 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
     /// Finds the contact under a load, and the quantity: if that is followed, under a load up to
     /// which it rises.
     fn at(&mut self, mut load: T) -> Fallible<T, (ContactState<T>, Point<T>)> {
-        let mut is_aside = false;
         loop {
             let found = self.solve(self.contact.under(load)?)?;
-            let [value, rate, doubt] = match self.quantity.at(&found, self) {
-                // Two contacts are about to merge: under a slightly larger load they are one.
-                Err(ContactError::Evaluation(EvaluationError::NoLoadDerivative { .. }))
-                    if self.work.integrator.several().is_some() && !is_aside =>
-                {
-                    (load, is_aside) = (load * T::of(LEAST_STEP), true);
-                    continue;
-                }
-                known => known?,
-            };
+            let [value, rate, doubt] = self.quantity.at(&found, self)?;
             let half_width = found.interval.half_width();
             let at = Point { load, value, rate, half_width };
             let low = self.low.filter(|low| self.follows && low.load < load);

@@ -25,7 +25,7 @@ impl<'b, T: Real> Contact<'b, T> {
             return refuse("an edge is Adhesive");
         }
         if self.kernel_of_bodies()?.is_some() {
-            return refuse("the bodies have a layer or another kernel");
+            return refuse("the bodies have a layer, a period or another kernel");
         }
         if let Some(bodies) = self.elasticity()? {
             Elasticity::check_like(&bodies)?;

@@ -71,8 +71,6 @@ pub(super) struct Search<'s, 'w, 'b, T: Real> {
     error: Option<ContactError<T>>,
     /// End of the bodies that contacts reach with no corner to hold them.
     runs_out: Option<Side>,
-    /// Flag: more cells were tried since.
-    has_run_out: bool,
     /// End of the bodies that the contacts are to reach, if the load for it is sought.
     end: Option<Side>,
 }
@@ -98,7 +96,6 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             of_one: None,
             error: None,
             runs_out: None,
-            has_run_out: false,
             end: None,
         }
     }

@@ -6,7 +6,8 @@ use crate::corners::polygon;
 use linecontact::profile::{Ellipse, Outline, Parabola, Placed, Placement};
 use linecontact::stress::Stress;
 use linecontact::{
-    Contact, Control, Cost, Curve, CurvePoint, Edge, Estimate, Extremum, Flat, Interval, Peak,
+    Base, Contact, Control, Cost, Curve, CurvePoint, Edge, Estimate, Extremum, Flat, Interval,
+    Layer, Material, Peak, PlaneState,
 };
 
 #[test]
@@ -129,6 +130,15 @@ fn bodies_that_conform_and_are_steep_are_told_both() {
         let told =
             ["the bodies conform", "do all units go together?"].map(|word| text.contains(word));
         assert_eq!(told, expected, "{text}");
+    }
+    // A lined bush has the note without the shares, which are those of half-planes.
+    let liner = Layer { material: Material::elastic(1e3, 0.3), thickness: 0.3, base: Base::Bonded };
+    let lined = contact.materials(liner, Material::Rigid, PlaneState::Strain);
+    for (load, conforms) in [(40.0, true), (1.0, false)] {
+        let solution = lined.solve(Control::Load(load)).unwrap();
+        let text = solution.to_string();
+        assert!(solution.conformity().is_none() && text.contains("conform") == conforms, "{text}");
+        assert!(!text.contains('%'), "{text}");
     }
 }
 

@@ -9,6 +9,7 @@ mod refused;
 mod scenes;
 mod stack;
 mod stress;
+mod walls;
 
 use crate::common::{Profile, graph, join, kernel_values};
 use linecontact::profile::{Line, Parabola};

@@ -751,8 +751,9 @@ class Contact(Unchanging):
         given = self._settings["materials"] or ()
         return [one.material if isinstance(one, Layer) else _material(one) for one in given]
 
-    def _set(self) -> dict[str, Any]:
-        """Returns the settings that differ from their defaults."""
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Settings that differ from their defaults, by the names of the parameters: materials, period, edges and so on."""
         usual = {"plane": "strain", "certified": False, "single_interval": False}
         return {
             name: value
@@ -761,11 +762,11 @@ class Contact(Unchanging):
         }
 
     def __repr__(self) -> str:
-        settings = (f", {name}={value!r}" for name, value in self._set().items())
+        settings = (f", {name}={value!r}" for name, value in self.settings.items())
         return f"Contact({self.lower!r}, {self.upper!r}{''.join(settings)})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (self.lower, self.upper, self._set())
+        return _again, (self.lower, self.upper, self.settings)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Contact):

@@ -245,7 +245,7 @@ def _read_contact(fields: Fields) -> Contact:
 
 def _contact_fields(contact: Contact) -> Fields:
     fields = {side: _body_fields(getattr(contact, side), side) for side in ("lower", "upper")}
-    settings = contact._set()
+    settings = contact.settings
     if materials := settings.pop("materials", None):
         lower, upper = map(_foundation_fields, _both(materials))
         fields["stiffness"] = {
@@ -259,6 +259,7 @@ def _contact_fields(contact: Contact) -> Fields:
         fields["edges"] = {"left": left, "right": right}
     fields |= {name: settings.pop(name) for name in ("resolution", "period", "certified") if name in settings}
     for name in settings:
+        name = "tolerance or quadrature" if name == "quadrature" else name
         raise SceneFileError("", None, name, "a file holds no settings of the numerical method: leave it out")
     return fields
 

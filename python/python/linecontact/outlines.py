@@ -77,7 +77,7 @@ class Outline:
         return self._with("arc", radius=radius, length=length)
 
     def wall(self, height: float) -> Outline:
-        """Draws an upright wall, up by a positive height or down by a negative one, along x 1.5e-8 of it.
+        """Draws an upright wall, up by a positive height or down by a negative one, along x 1.5e-8 of it, from the next segment.
 
         The next segment is level, but after a `corner`.
         """

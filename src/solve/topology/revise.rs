@@ -116,10 +116,11 @@ impl<T: Real> Search<'_, '_, '_, T> {
             self.earlier.clone_from(before);
         }
         // More cells find no contact under more load than the bodies bear.
-        let is_last = next == Start::ActiveSet
-            && self.runs_out.is_some()
-            && std::mem::replace(&mut self.has_run_out, true);
-        if is_last { Err(self.not_found()) } else { Ok(next) }
+        if next == Start::ActiveSet && self.runs_out.is_some() {
+            Err(self.not_found())
+        } else {
+            Ok(next)
+        }
     }
 
     /// Returns the outcome of a search for one contact, and the next start; or its error if any
