@@ -216,3 +216,12 @@ def test_flats_that_repeat_meet_to_the_rounding_of_the_rest() -> None:
     contact = lc.Contact(lc.Flat(), wave, contact_modulus=115384.6, period=0.24977445662181186)
     for load in (1.45, 1.5, 1.55, 1.6):
         assert contact.solve(load=load).is_checked
+
+
+def test_a_wall_leaves_a_drawing_as_long_as_it_is() -> None:
+    body = lc.Outline((0.0, 0.1)).line(0.3).wall(-0.1).line(0.6).wall(0.1).line(0.3).body()
+    np.testing.assert_allclose(ends(body), [(0, 0.1), (0.3, 0.1), (0.3, 0), (0.9, 0), (0.9, 0.1), (1.2, 0.1)], atol=3e-9)
+    # A row of lands, which meet once a period.
+    row = lc.solve(lc.Flat(), body, contact_modulus=1.0, load=1e-3, period=1.2)
+    sin = math.sin(0.25 * math.pi)
+    assert math.isclose(row.pressure(0.6), 1e-3 / 1.2 / sin, rel_tol=1e-7)

@@ -184,8 +184,8 @@ impl<T: Real> Gap<'_, T> {
     /// P = F/p + κ/π Σ (b_n cos ω_n x - a_n sin ω_n x)/K(ω_n)
     /// ```
     ///
-    /// given K, with the coefficients `a_n` and `b_n` of g, from those of the heights: between walls
-    /// no slope tells of them.
+    /// given K, with the coefficients `a_n` and `b_n` of g, from those of the heights: between
+    /// walls no slope tells of them.
     pub(crate) fn complete_load(
         &self,
         kappa: T,

@@ -111,7 +111,7 @@ impl<T: Real> Solution<'_, T> {
     /// Returns the angle at the limits of bodies that conform, on half-planes or with layers.
     pub(super) fn conforming(&self) -> Option<T> {
         let (free, is_one) = (self.found.free, self.intervals().len() == 1);
-        if !is_one || !(free.left && free.right) {
+        if !(is_one && free.left && free.right) {
             return None;
         }
         let (hull, mut sampler) = (self.hull(), Sampler::default());

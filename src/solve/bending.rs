@@ -332,14 +332,13 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             corner.map_or(T::zero(), |z| T::epsilon() * (x / (x - z)).abs())
         };
         let contacts = self.work.integrator.contacts(&found.interval);
-        let several = contacts.len() > 1;
         let shares = contacts.iter().flat_map(|&Interval { left, right }| {
             let joints = [gap.breakpoint_after(left), gap.breakpoint_before(right)];
             [share(left, joints[0]), share(right, joints[1])]
         });
         let known = shares.fold(T::epsilon().powf(T::of(2.0 / 3.0)).max(error), T::max);
         // Between contacts r is known like the heights.
-        let survey = self.work.workspace.survey_of(gap).filter(|_| several);
+        let survey = self.work.workspace.survey_of(gap).filter(|_| contacts.len() > 1);
         let doubt = survey.map_or(T::zero(), |look| look.doubt_at(look.lowest));
         let known = known.max(self.contact.kappa * doubt / found.load);
         residual <= (T::of(BELOW) * error).max(rounding())
@@ -372,12 +371,6 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             if self.gap.range()[0] != cut {
                 return Ok(());
             }
-        }
-        if self.has_converged && self.may_be_one {
-            // One interval meets the equation, but is no contact.
-            (self.has_converged, self.may_be_one) = (false, false);
-            self.restart(self.begin());
-            return Ok(());
         }
         self.fault = Some(error);
         self.less()

@@ -26,9 +26,7 @@ use crate::gap::{Asked, Gap};
 use crate::kernel::Kernel;
 use crate::search::SearchError;
 use crate::solution::{ContactState, Report, Solved};
-use crate::{
-    ContactError, Ends, EvaluationError, Fallible, InputError, Interval, Real, SolveError,
-};
+use crate::{ContactError, Ends, Fallible, InputError, Interval, Real, SolveError};
 pub(super) use approach::ByApproach;
 pub(super) use half_width::HalfWidth;
 pub(super) use peak::Peak;
@@ -373,9 +371,6 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                 _ => Err(error.clone()),
             };
         }
-        let Contact { gap, kappa, edges, .. } = self.contact;
-        let look = self.work.workspace.survey_of(gap);
-        let is_told = look.is_none_or(|look| load >= *kappa * look.doubt_at(look.lowest));
         Ok(ControlFlow::Continue(match *error {
             ContactError::Solve(DomainTooShort { end, carried, half_width, peak, .. }) => {
                 let widest = Capacity { half_width, end, load: carried, peak };
@@ -399,27 +394,37 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
                 unknown(carried.min(load), value.max(wanted))
             }
             ContactError::Solve(Falls { load, .. }) => unknown(load, infinite),
-            // Far too large a first load fails anyhow; bodies bear a smaller one.
-            ContactError::Solve(NoEquilibrium { .. } | Tension { .. } | Overlap { .. })
-                if self.last.is_none() && edges.are_sought() && is_told =>
-            {
-                unknown(load, infinite)
-            }
             // Parallel bodies touch all along under any load.
             ContactError::Solve(NoFirstContact { slope, .. })
                 if slope.iter().all(|slope| slope.is_zero()) =>
             {
                 return Err(error.clone());
             }
+            // Far too large a first load fails anyhow; bodies bear a smaller one.
+            ContactError::Solve(Tension { .. } | Overlap { .. })
+                if self.last.is_none() && self.contact.edges.are_sought() =>
+            {
+                unknown(load, infinite)
+            }
             ContactError::Solve(NoEquilibrium { .. } | NoFirstContact { .. } | LiftsOff { .. }) => {
-                // So small a load is not held by a corner, does not close a hollow, or leaves no
-                // height to tell; unless a smaller one has been borne, and heights tell this one.
-                let is_borne = |at: &Point<T>| at.value > T::zero() && at.load <= load;
-                let is_more = is_told && self.low.iter().chain(&self.high).any(is_borne);
-                unknown(load, if is_more { infinite } else { T::zero() })
+                let is_large = self.is_too_large(load, error);
+                unknown(load, if is_large { infinite } else { T::zero() })
             }
             _ => return Err(error.clone()),
         }))
+    }
+
+    /// Tells whether a load that finds nothing is too large. A small one is not held by a corner,
+    /// does not close a hollow, or leaves no height to tell; unless a smaller one has been borne,
+    /// or it is the first, and heights tell it.
+    fn is_too_large(&self, load: T, error: &ContactError<T>) -> bool {
+        let Contact { gap, kappa, edges, .. } = self.contact;
+        let look = self.work.workspace.survey_of(gap);
+        let is_told = look.is_none_or(|look| load >= *kappa * look.doubt_at(look.lowest));
+        let is_borne = |at: &Point<T>| at.value > T::zero() && at.load <= load;
+        let is_nothing = matches!(error, ContactError::Solve(SolveError::NoEquilibrium { .. }));
+        let is_first = is_nothing && self.last.is_none() && edges.are_sought();
+        is_told && (is_first || self.low.iter().chain(&self.high).any(is_borne))
     }
 
     /// Returns the error for a value that occurs under no load.
