@@ -110,6 +110,7 @@ impl<T: Real> Outline<T> {
     /// from that segment, the root of the machine epsilon, as a curve has one height at each x.
     ///
     /// ```
+    /// use linecontact::ParametricProfile;
     /// use linecontact::profile::Outline;
     ///
     /// // A land from -1 to 1, and a groove of depth 0.5 on either side.
