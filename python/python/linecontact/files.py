@@ -259,8 +259,7 @@ def _contact_fields(contact: Contact) -> Fields:
         fields["edges"] = {"left": left, "right": right}
     fields |= {name: settings.pop(name) for name in ("resolution", "period", "certified") if name in settings}
     for name in settings:
-        name = "tolerance or quadrature" if name == "quadrature" else name
-        raise SceneFileError("", None, name, "a file holds no settings of the numerical method: leave it out")
+        raise SceneFileError("", None, name, "a file holds no settings of the numerical method, such as a tolerance: leave it out")
     return fields
 
 
