@@ -146,7 +146,9 @@ impl Solution {
                 inside
             }
         };
-        let strength = self.0.contacts()?.iter().find_map(strength);
+        // A strength that is zero to rounding has no sign.
+        let least = 1e-12 * self.0.mean_pressure().abs();
+        let strength = self.0.contacts()?.iter().find_map(strength).filter(|k| k.abs() > least);
         strength.map_or(found, |strength| Ok(f64::INFINITY.copysign(strength)))
     }
 

@@ -854,3 +854,8 @@ def test_what_is_infinite_is_infinite_everywhere() -> None:
     assert wedge.peak() == wedge.contacts()[0].peak == lc.Peak(0.0, math.inf, 0.0) and math.isinf(wedge.pressure(0.0))
     glued = lc.Contact(flat, lc.Parabola(1.0, (-1.0, 1.0)), contact_modulus=1.0, edges=(lc.Edge.adhesive(1e-3),) * 2).solve(load=0.02)
     assert glued.pressure([-glued.b, glued.a]).tolist() == [-math.inf, -math.inf] and math.isfinite(glued.peak().pressure)
+    # At an end that just begins to press, the strength is rounding, and tells no sign.
+    fixed = (lc.Edge.fixed(-0.2), lc.Edge.fixed(0.2))
+    light = lc.Contact(flat, lc.Parabola(1.0, (-1.0, 1.0)), kappa=1.0, edges=fixed).solve(load=0.02)
+    with pytest.raises(lc.errors.SingularError):
+        light.pressure([0.0, 0.2])

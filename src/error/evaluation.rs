@@ -10,8 +10,8 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum EvaluationError<T: Real> {
-    /// The pressure was asked for where it is infinite: at a fixed or adhesive edge, at an edge
-    /// where Eq. (6) has left a singularity, or where the slope of a body jumps.
+    /// A quantity was asked for where the pressure is infinite: at a fixed or adhesive edge, at an
+    /// edge where Eq. (6) has left a singularity, or where the slope of a body jumps.
     #[error("the pressure at x = {} is infinite; ask beside it, or for edge_singularities()", six(*x))]
     Singular {
         /// Abscissa asked for.

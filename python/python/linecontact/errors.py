@@ -1339,8 +1339,8 @@ class ReversedSlipError(SolveError):
 
 
 class SingularError(EvaluationError):
-    """The pressure was asked for where it is infinite: at a fixed or adhesive edge, at an edge
-    where Eq. (6) has left a singularity, or where the slope of a body jumps.
+    """A quantity was asked for where the pressure is infinite: at a fixed or adhesive edge, at an
+    edge where Eq. (6) has left a singularity, or where the slope of a body jumps.
 
     Attributes
     ----------
