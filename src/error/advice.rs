@@ -41,6 +41,16 @@ pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, pea
     )
 }
 
+/// Returns what the widest contact of bodies is, given in words, or that there is none.
+pub(super) fn widest<T: Real>(half_width: T, end: T, widest: impl FnOnce() -> String) -> String {
+    match half_width.is_zero() {
+        true => {
+            format!("the bodies touch first at their end x = {}, where none has room", six(end))
+        }
+        false => widest(),
+    }
+}
+
 /// Names the peak pressure of a contact, if it is known.
 pub(super) fn at_peak<T: Real>(peak: T) -> String {
     let is_known = peak.partial_cmp(&peak).is_some();

@@ -2,6 +2,7 @@
 
 use super::advice::{
     SEVERAL, at_peak, borne, hint, how_to_balance, how_to_peak, how_to_press, how_to_touch, place,
+    widest,
 };
 use crate::rounded::{apart, six, span};
 use crate::search::SearchError;
@@ -103,10 +104,12 @@ pub enum SolveError<T: Real> {
     },
     /// A contact of the half-width asked for reaches beyond a body.
     #[error(
-        "a contact of half-width {wanted} would leave the bodies at x = {end}: there is room for \
-         {half_width}, which carries {load}{}; extend the domain or lower the half-width{}",
-        at_peak(*peak), hint(*kappa_is_default), wanted = apart(*wanted, &[*half_width]), end = six(*end),
-        half_width = apart(*half_width, &[*wanted]), load = six(*load)
+        "no contact of half-width {wanted} fits: {}; extend the domain or lower the half-width{}",
+        widest(*half_width, *end, || format!(
+            "it would leave the bodies at x = {}: there is room for {}, which carries {}{}",
+            six(*end), apart(*half_width, &[*wanted]), six(*load), at_peak(*peak)
+        )),
+        hint(*kappa_is_default), wanted = apart(*wanted, &[*half_width])
     )]
     HalfWidthTooLarge {
         /// The half-width asked for.
@@ -312,10 +315,13 @@ pub enum SolveError<T: Real> {
     },
     /// The contact with this peak pressure reaches beyond a body or a corner.
     #[error(
-        "the peak pressure {wanted} takes a wider contact than there is room for: with half-width {half_width}, up to \
-         x = {end}, it is {found} under the load {load}; extend the domains or lower the peak{}",
-        hint(*kappa_is_default), wanted = apart(*wanted, &[*found]), found = apart(*found, &[*wanted]),
-        half_width = six(*half_width), end = six(*end), load = six(*load)
+        "the peak pressure {wanted} takes a wider contact than there is room for: {}; extend the domains or lower the \
+         peak{}",
+        widest(*half_width, *end, || format!(
+            "with half-width {}, up to x = {}, it is {} under the load {}",
+            six(*half_width), six(*end), apart(*found, &[*wanted]), six(*load)
+        )),
+        hint(*kappa_is_default), wanted = apart(*wanted, &[*found])
     )]
     PeakTooHigh {
         /// The peak pressure asked for.

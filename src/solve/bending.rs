@@ -157,6 +157,7 @@ fn from_last<'b, T: Real>(
 ) -> Fallible<T, (ContactState<T>, Gap<'b, T>)> {
     let spreads = warm(std::mem::take(&mut work.workspace.spreads), control);
     let (before, one) = (T::one() / T::zero(), T::one());
+    let may_be_one = spreads.is_empty() || !work.workspace.is_held;
     let [from, target] = [Vec::new(), Vec::new()];
     let gap = contact.gap.clone();
     Bending {
@@ -177,7 +178,7 @@ fn from_last<'b, T: Real>(
         has_cells: false,
         is_checked: true,
         has_converged: false,
-        may_be_one: true,
+        may_be_one,
     }
     .find()
 }
@@ -268,7 +269,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             self.spreads = self.begin();
         }
         self.cut(false)?;
-        self.is_checked = self.kernel.row.is_some() || self.spreads.len() != 1;
+        self.is_checked = self.kernel.row.is_some() || self.spreads.len() != 1 || !self.may_be_one;
         for _ in 0..MAX_SOLVES {
             let solved = match self.solve() {
                 Ok(solved) => solved,
@@ -278,6 +279,10 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 }
             };
             let Some(Correction { spreads, residuals }) = self.correct(&solved)? else { break };
+            let free = self.contact.edges.map(|edge| edge.is_free());
+            // Corners that hold a land are found only among any number of contacts.
+            self.work.workspace.is_held = solved.found.free != free;
+            self.may_be_one &= !self.work.workspace.is_held;
             let residual = residuals[0];
             if self.has_converged && spreads.len() != self.target.len() {
                 // The ρ that was reached is that of other contacts.
@@ -359,7 +364,6 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
             }
         }
         let was_one = !std::mem::replace(&mut self.is_checked, true);
-        // Corners that hold a land are found only among any number of contacts.
         let may_be_more = was_one && self.may_be_one && !self.contact.single_interval;
         if may_be_more && !self.spreads.is_empty() && !self.fills(&error) {
             self.may_be_one = false;

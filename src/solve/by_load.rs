@@ -357,19 +357,19 @@ impl<T: Real> ByLoad<'_, '_, '_, T> {
         let unknown = |load: T, value: T| Point { load, value, rate: nan, half_width: nan };
         if self.kernel.is_some() {
             // What half-planes, or bodies with the bend of another load, bear is no bound.
-            return match *error {
+            match *error {
                 ContactError::Solve(Bending { .. } | DomainTooShort { .. })
                 | ContactError::Input(InputError::LayerTooThin { .. }) => {
-                    Ok(ControlFlow::Continue(unknown(load, infinite)))
+                    return Ok(ControlFlow::Continue(unknown(load, infinite)));
                 }
                 // Nearer to complete contact nothing is solved.
                 ContactError::Solve(CompleteContact { complete, .. })
                     if self.low.is_none_or(|low| low.load < T::of(LARGEST_SHARE) * complete) =>
                 {
-                    Ok(ControlFlow::Continue(unknown(load.min(complete), infinite)))
+                    return Ok(ControlFlow::Continue(unknown(load.min(complete), infinite)));
                 }
-                _ => Err(error.clone()),
-            };
+                _ => {}
+            }
         }
         Ok(ControlFlow::Continue(match *error {
             ContactError::Solve(DomainTooShort { end, carried, half_width, peak, .. }) => {

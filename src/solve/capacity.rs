@@ -24,9 +24,6 @@ const SURE_IMBALANCE: f64 = 0.1;
 /// Factor by which contacts at the end become narrower until one is too narrow.
 const NARROWING_FACTOR: f64 = 8.0;
 
-/// Largest number of such steps: enough from the largest number to the smallest.
-const MAX_WIDTHS: usize = 700;
-
 /// Widest balanced contact.
 #[derive(Clone, Copy)]
 pub(super) struct Capacity<T> {
@@ -82,7 +79,11 @@ pub(super) fn capacity<T: Real>(
     let mut pinned = Pinned { contact, equations, full: &mut full, rough: &mut rough };
     let (left, right) = (fixed.left.unwrap_or(left), fixed.right.unwrap_or(right));
     let found = pinned.largest_contact(Interval { left, right });
+    let pulled = conditions.edges.are_adhesive();
     let capacity = found.and_then(|(on, side)| {
+        if on.half_width().is_zero() {
+            return (!pulled).then_some((on, Capacity::nothing(ends[side])));
+        }
         let m = full.moments(&contact.gap, on).ok()?;
         let load = conditions.balance(on, &m)?;
         full.prepare(&contact.gap, on).ok()?;
@@ -99,8 +100,7 @@ pub(super) fn capacity<T: Real>(
     *cost += full.cost() + rough.cost();
     // Without adhesion, a contact in total tension does not count: the bodies touch next to a
     // hollow.
-    let pulled = conditions.edges.are_adhesive();
-    capacity.filter(|(_, found)| found.load.is_finite() && (pulled || found.load > T::zero()))
+    capacity.filter(|(_, found)| found.load.is_finite() && (pulled || found.load >= T::zero()))
 }
 
 /// Search among contacts that reach an end.
@@ -113,7 +113,8 @@ struct Pinned<'s, T: Real> {
 }
 
 impl<T: Real> Pinned<'_, T> {
-    /// Returns the balanced contact, and the side of the end that it reaches.
+    /// Returns the balanced contact, and the side of the end that it reaches; with no width if it
+    /// would be narrower than x is rounded.
     fn largest_contact(&mut self, whole: Interval<T>) -> Option<(Interval<T>, Side)> {
         let Interval { left, right } = whole;
         if let Some(side) = self.equations.limits().only_free() {
@@ -131,16 +132,15 @@ impl<T: Real> Pinned<'_, T> {
             Side::Right => Interval { left: x, right },
         };
         let (mut wide, mut at_wide, mut width) = (whole[side.other()], at_whole, right - left);
-        for _ in 0..MAX_WIDTHS {
+        let end = whole[side];
+        let rounding = T::epsilon() * (right - left).max(end.abs());
+        while width > T::of(NARROWING_FACTOR) * rounding {
             width /= T::of(NARROWING_FACTOR);
             let narrow = match side {
                 Side::Left => left + width,
                 Side::Right => right - width,
             };
-            if on(narrow).half_width() <= T::zero() {
-                return None;
-            }
-            let at_narrow = self.rough_shift(on(narrow))?;
+            let at_narrow = self.rough_shift(on(narrow)).filter(|shift| shift.is_finite())?;
             if (at_narrow > T::zero()) != (at_wide > T::zero()) {
                 let [one, other] = [(narrow, at_narrow), (wide, at_wide)];
                 let [lo, hi] = if side == Side::Left { [one, other] } else { [other, one] };
@@ -151,7 +151,8 @@ impl<T: Real> Pinned<'_, T> {
             }
             (wide, at_wide) = (narrow, at_narrow);
         }
-        None
+        // The bodies touch first at this end.
+        Some((Interval { left: end, right: end }, side))
     }
 
     /// Returns a shift that is positive if the contact must move to the right. If rough samples

@@ -73,13 +73,17 @@ impl<T: Real> Survey<T> {
         if (height - by_points).abs() > room { by_points } else { height }
     }
 
-    /// Returns the uncertainty of the height at x, including the rounding of x.
+    /// Returns the uncertainty of the height at x, including the rounding of x; at a breakpoint, on
+    /// its flatter side, whose land a steep wall does not move.
     pub fn doubt_at(&self, x: T) -> T {
         let doubt = |body: &super::Body<T>| {
-            let panel = body.panels_at(x)[1];
-            let at = body.at(panel, x);
-            let rounding = if at.slope.is_finite() { x.abs() * at.slope.abs() } else { T::zero() };
-            body.panels[panel].doubt + T::of(8.0) * T::epsilon() * (at.y.abs() + rounding)
+            let [left, right] = body.panels_at(x).map(|panel| {
+                let at = body.at(panel, x);
+                let slope = if at.slope.is_finite() { at.slope.abs() } else { T::zero() };
+                let rounding = T::epsilon() * (at.y.abs() + x.abs() * slope);
+                body.panels[panel].doubt + T::of(8.0) * rounding
+            });
+            left.min(right)
         };
         self.bodies.iter().fold(T::zero(), |sum, body| sum + doubt(body))
     }

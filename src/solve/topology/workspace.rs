@@ -36,6 +36,8 @@ pub(crate) struct Workspace<T> {
     /// panels have samples.
     pub(in super::super) spreads: Vec<Spread<T>>,
     pub(in super::super) bent: Option<GapId<T>>,
+    /// Flag: corners of these bodies hold a contact.
+    pub(in super::super) is_held: bool,
 }
 
 impl<T: Real> Workspace<T> {
@@ -55,6 +57,7 @@ impl<T: Real> Workspace<T> {
             report: Report::new(),
             spreads: Vec::new(),
             bent: None,
+            is_held: false,
         }
     }
 
