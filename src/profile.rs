@@ -323,7 +323,7 @@ pub enum ProfileError<T: Real> {
     /// `X` does not rise, or fall, all the way.
     #[error(
         "X turns back at k = {k} (x = {x}) in the domain from {}: end the domain there, or make a \
-         piece of each side; if a wall is turned so far that it overhangs, give it a longer run{}",
+         piece of each side; if a wall is turned so far that it overhangs, slant it (in an outline, a corner and a line){}",
         span(domain[0], domain[1]), in_degrees(*domain), k = six(*k), x = six(*x)
     )]
     TurnsBack {

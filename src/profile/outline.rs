@@ -5,12 +5,14 @@
 //! downwards. A circle of curvature 1/ρ that touches the segment has its centre c where
 //!
 //! ```text
-//! n·c - κ s/2 = ρ - κ ρ²/2      s = |c|²
+//! n·c - κ w/2 = ρ      w = |c|² - ρ²
 //! ```
 //!
-//! which is a line for κ = 0, and else a circle about the centre of the arc. Both segments give c
-//! as a linear function of s, and so a quadratic equation for s. Its smaller root is the fillet
-//! next to the corner, which touches at `(c - ρ n)/(1 - ρ κ)`.
+//! which is a line for κ = 0, and else a circle about the centre of the arc. Seen along the mean
+//! direction of both segments, with the half angle δ between them, `n = [±sin δ, cos δ]`: c is a
+//! linear function of w, and w of the size ρ² tan² δ is the smaller root of a quadratic equation,
+//! that of the fillet next to the corner. It touches at `(c - ρ n)/(1 - ρ κ)`. Nothing is the
+//! difference of large numbers, however flat the corner.
 
 use super::{
     Ellipse, Line, ParametricProfile, Piecewise, PiecewiseError, Placed, Placement, ProfileError,
@@ -107,7 +109,8 @@ impl<T: Real> Outline<T> {
 
     /// Draws an upright wall, up by a positive height or down by a negative one. The next segment
     /// is level, but after a [`corner`](Self::corner). Along x the wall takes 1.5e-8 of its height
-    /// from that segment, the root of the machine epsilon, as a curve has one height at each x.
+    /// from that segment, if there is one: the root of the machine epsilon, as a curve has one
+    /// height at each x. A body that is to turn needs a slanted wall, by a corner and a line.
     ///
     /// ```
     /// use linecontact::ParametricProfile;
@@ -120,10 +123,12 @@ impl<T: Real> Outline<T> {
     /// ```
     pub fn wall(mut self, height: T) -> Self {
         let run = height.abs() * T::epsilon().sqrt();
-        self.next.0 = Some(height / run);
-        let mut drawn = self.draw(None, run);
-        (drawn.next.0, drawn.run) = (Some(T::zero()), Some(run));
-        drawn
+        if !run.is_zero() {
+            self.next.0 = Some(height / run);
+            self = self.draw(None, run);
+        }
+        (self.next.0, self.run) = (Some(T::zero()), Some(run));
+        self
     }
 
     /// Draws an arc of a circle over a length along x.
@@ -216,7 +221,9 @@ impl<T: Real> Outline<T> {
             found.push(segment);
         }
         let (name, must) = (SLOPE, "in front of a line or an arc");
-        let corner = self.next.0.map(|value| ProfileError::Parameter { name, value, must });
+        // Nothing need be behind a wall.
+        let next = self.next.0.filter(|slope| self.run.is_none() || !slope.is_zero());
+        let corner = next.map(|value| ProfileError::Parameter { name, value, must });
         if let Some(source) = self.next.1.map(|finish| finish.fault(must)).or(corner) {
             return Err(PiecewiseError::InSegment { segment: self.drawn.len() + 1, source });
         }
@@ -331,24 +338,28 @@ type Touch<T> = ([T; 2], T);
 /// Finds where a fillet touches the segments in front of a corner and behind it, by the angles and
 /// curvatures that they have at the corner.
 fn fillet<T: Real>(radius: T, angles: [T; 2], curvatures: [T; 2]) -> Option<[Touch<T>; 2]> {
-    let (radius, half) = (radius * (angles[1] - angles[0]).signum(), T::of(0.5));
-    let normals = angles.map(|angle| [-angle.sin(), angle.cos()]);
-    // The centre is base + s rate.
-    let [[a, b], [c, d]] = normals;
-    let across = a * d - b * c;
-    let by = |[p, q]: [T; 2]| [(p * d - b * q) / across, (a * q - p * c) / across];
-    let base = by(curvatures.map(|curvature| radius - half * curvature * radius * radius));
-    let rate = by(curvatures.map(|curvature| half * curvature));
-    let dot = |p: [T; 2], q: [T; 2]| p[0] * q[0] + p[1] * q[1];
-    let linear = T::one() - T::of(2.0) * dot(base, rate);
-    let root = (linear * linear - T::of(4.0) * dot(base, base) * dot(rate, rate)).sqrt();
-    let s = T::of(2.0) * dot(base, base) / (linear + root);
+    let (half, quarter, two) = (T::of(0.5), T::of(0.25), T::of(2.0));
+    let (mean, turn) = (half * (angles[0] + angles[1]), half * (angles[1] - angles[0]));
+    let ((sin, cos), radius) = (turn.sin_cos(), radius * turn.signum());
+    // The centre is [by_w[0] w, ρ/cos δ + by_w[1] w].
+    let by_w = [
+        quarter * (curvatures[0] - curvatures[1]) / sin,
+        quarter * (curvatures[0] + curvatures[1]) / cos,
+    ];
+    let linear = T::one() - two * radius * by_w[1] / cos;
+    let constant = radius * sin / cos * (radius * sin / cos);
+    let square = by_w[0] * by_w[0] + by_w[1] * by_w[1];
+    let root = (linear * linear - two * two * square * constant).sqrt();
+    let w = two * constant / (linear + root);
+    let (sin_mean, cos_mean) = mean.sin_cos();
     let touch = [0, 1].map(|side| {
-        let (normal, curvature) = (normals[side], curvatures[side]);
+        let (curvature, sin) = (curvatures[side], if side == 0 { sin } else { -sin });
         let scale = T::one() - radius * curvature;
-        let point = [0, 1].map(|i| (base[i] + s * rate[i] - radius * normal[i]) / scale);
-        let [along, up] = [0, 1].map(|i| normal[i] - curvature * point[i]);
-        (scale > T::zero()).then(|| (point, (-along).atan2(up)))
+        let along = (by_w[0] * w - radius * sin) / scale;
+        let up = (radius * sin * sin / cos + by_w[1] * w) / scale;
+        let angle = (curvature * along - sin).atan2(cos - curvature * up);
+        let point = [along * cos_mean - up * sin_mean, along * sin_mean + up * cos_mean];
+        (scale > T::zero()).then_some((point, mean + angle))
     });
     Some([touch[0]?, touch[1]?])
 }

@@ -72,6 +72,13 @@ fn a_wall_turned_beyond_the_upright_is_named() {
 
 #[test]
 fn a_fillet_between_lines_touches_at_the_length_of_its_tangents() {
+    // However flat the corner, the arc meets its lines, at half its length to the first digits.
+    for [before, turn, radius] in [[0.1, 3e-4, 1e3], [0.2, 1e-6, 1e5], [-0.1, -1e-2, 50.0]] {
+        let outline = Outline::from([0.0, 0.0]).corner(before).line(4.0).corner(before + turn);
+        let ends = ends(&outline.fillet(radius).line(5.0).build().unwrap());
+        let half = 0.5 * radius * turn.abs() / (1.0 + before * before).powf(1.5);
+        assert!((ends[1][0].x - 4.0 + half).abs() < 0.01 * half, "{ends:?}, {half}");
+    }
     for (before, behind, radius) in [(0.0, 1.0, 0.7), (0.5, -0.8, 0.3), (-0.2, 0.1, 3.0)] {
         let outline = Outline::from([0.0, 0.0]).corner(before).line(4.0).corner(behind);
         let body = outline.fillet(radius).line(5.0).build().unwrap();
@@ -322,6 +329,11 @@ fn walls_are_upright() {
     }
     let single = Outline::from([0.0f32, 0.0]).line(1.0).wall(-0.5).line(1.0).build();
     assert_eq!(single.unwrap().pieces(), 3);
-    let flat = Outline::from([0.0, 0.0]).line(1.0).wall(0.0).line(1.0).build().err().unwrap();
-    assert!(flat.to_string().contains("segment 2"), "{flat}");
+    // A step of no height is none, and a punch may end with its sides.
+    let flat = Outline::from([0.0, 0.0]).line(1.0).wall(0.0).line(1.0).build().unwrap();
+    assert_eq!(flat.pieces(), 2);
+    let punch = Outline::from([0.0, 0.0]).line(1.0).wall(0.5).mirrored().build().unwrap();
+    assert_eq!(punch.pieces(), 4);
+    let corner = Outline::from([0.0, 0.0]).line(1.0).wall(0.5).corner(0.1).build().err().unwrap();
+    assert!(corner.to_string().contains("segment 3"), "{corner}");
 }

@@ -80,6 +80,8 @@ class Scene:
         """Refuses a scene that cannot be solved; a list of controls becomes a tuple."""
         if not isinstance(self.contact, Contact):
             raise TypeError(f"contact is {self.contact!r}: give a Contact")
+        if isinstance(self.controls, Mapping):
+            raise TypeError(f"controls is {self.controls!r}: give a list of dicts, one for each solve")
         object.__setattr__(self, "controls", tuple(dict(control) for control in self.controls))
         for control in self.controls:
             _wanted(control)

@@ -262,8 +262,7 @@ pub(super) fn convex_stretches<T: Real>(nodes: &mut Vec<Node<T>>, rates: &mut Ve
         let around = &rates[i.saturating_sub(IN_A_ROW)..(i + IN_A_ROW + 1).min(rates.len())];
         if !nodes[i].is_void && !nodes[i].is_open && around.iter().all(|rate| rate.is_finite()) {
             let width = nodes[i + 1].x - nodes[i].x;
-            let least = around.iter().fold(rates[i], |least, &rate| least.min(rate));
-            nodes[i].after = nodes[i].after.min(T::of(0.5) * least * width * width);
+            nodes[i].after = nodes[i].after.min(T::of(0.5) * rates[i] * width * width);
         }
     }
 }
