@@ -319,3 +319,9 @@ def test_the_schema_refuses_what_the_library_refuses(tmp_path: Path) -> None:
             lc.Scene.from_file(tmp_path / "bad.json")
         with pytest.raises(jsonschema.ValidationError):
             jsonschema.validate(bad, SCHEMA)
+
+
+def test_the_controls_of_a_scene_are_a_list() -> None:
+    contact = lc.Contact(lc.Flat(), lc.Parabola(1.0, (-1.0, 1.0)), kappa=1.0)
+    with pytest.raises(TypeError, match="give a list of dicts"):
+        lc.Scene(contact, {"load": 5.0})  # type: ignore[arg-type]

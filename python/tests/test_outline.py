@@ -225,3 +225,19 @@ def test_a_wall_leaves_a_drawing_as_long_as_it_is() -> None:
     row = lc.solve(lc.Flat(), body, contact_modulus=1.0, load=1e-3, period=1.2)
     sin = math.sin(0.25 * math.pi)
     assert math.isclose(row.pressure(0.6), 1e-3 / 1.2 / sin, rel_tol=1e-7)
+
+
+def test_a_drawing_may_end_with_a_wall_and_its_steps_may_vanish() -> None:
+    punch = lc.Outline().line(3.0).wall(1.0)
+    assert punch.mirrored().body().pieces == 4 and lc.Outline().line(1.0).wall(0.0).line(1.0).body().pieces == 2
+    # A fillet of a nearly flat corner.
+    flat = lc.Outline((-2.0, 0.0)).corner(-0.207).line(1.5).corner(-0.2063).fillet(439.6).line(1.5).body()
+    assert flat.pieces == 3
+    with pytest.raises(lc.errors.PiecewiseInPieceError, match="slant it"):
+        lc.Outline().line(3.0).wall(1.0).line(1.0).body().rotated(1e-4)
+
+
+def test_half_a_drawing_touches_first_at_its_end() -> None:
+    for half in (lc.Outline().arc(10.0, 3.0).body(), lc.Parabola(10.0, (0.0, 3.0)), lc.Ellipse.circle(10.0, (0.0, 1.0))):
+        with pytest.raises(lc.errors.DomainTooShortError, match="mirror image"):
+            lc.solve(lc.Flat(), half, contact_modulus=115e3, load=5.0)

@@ -26,7 +26,8 @@ pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, pea
     let (x, asked) = (six(end), apart(load, &[carried]));
     if carried.abs() <= T::epsilon() * load.abs() {
         return format!(
-            "the bodies touch first at their end x = {x}, and carry nothing of the load {asked}: extend the domain"
+            "the bodies touch first at their end x = {x}, and carry nothing of the load {asked}: extend the domain, as a \
+             half drawing by its mirror image"
         );
     }
     let leave = format!("the contact would leave the bodies at x = {x}");

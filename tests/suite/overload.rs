@@ -3,7 +3,9 @@
 
 use crate::common;
 use common::{Counting, Profile, Shares, graph, join};
-use linecontact::profile::{Involute, Parabola, Placed, Placement, rounded_punch, wedge};
+use linecontact::profile::{
+    Ellipse, Involute, Line, Parabola, Placed, Placement, rounded_punch, wedge,
+};
 use linecontact::{
     Contact, ContactError, Control, Curve, CurvePoint, Edge, Flat, Side, SolveError,
 };
@@ -562,4 +564,49 @@ fn chains_and_ridges_bear_what_their_closed_forms_say() {
     println!("{judged} bodies, the slowest in {slowest} s");
     assert!(faults.is_empty(), "{}:\n{}", faults.len(), faults.join("\n"));
     assert!(judged > 50 && slowest < 5.0, "{judged} {slowest}");
+}
+
+/// Half of a drawing, or a plate that ends below the roller: the first touch is at an end, wherever
+/// that lies, and up to rounding of the bodies; a level tangent there bears nothing.
+#[test]
+fn a_half_drawing_touches_first_at_its_end() {
+    let roller = Ellipse::circle(10.0, [-1.0, 1.0]).unwrap();
+    let plate = Line::new(0.0, [0.0, 50.0]).unwrap();
+    let half = |from: f64| Parabola::new(10.0, [from, 3.0]).unwrap();
+    for from in [0.0, -1e-300, -1e-30, -1e-20] {
+        let body = half(from);
+        let mirrored = Parabola::new(10.0, [-3.0, -from]).unwrap();
+        let shifted = Placed::new(half(from), Placement::default().shifted(5.0, 0.0)).unwrap();
+        let arc = Curve::new([from, 1.0], |k: f64| CurvePoint {
+            x: 10.0 * k.sin(),
+            y: 20.0 * (0.5 * k).sin().powi(2),
+            dx: 10.0 * k.cos(),
+            dy: 10.0 * k.sin(),
+        });
+        let alone = Contact::new(&Flat, &body).unwrap().single_interval(true);
+        for contact in [
+            Contact::new(&Flat, &body).unwrap(),
+            Contact::new(&Flat, &mirrored).unwrap(),
+            Contact::new(&Flat, &shifted).unwrap(),
+            Contact::new(&Flat, &arc).unwrap(),
+            Contact::new(&plate, &roller).unwrap(),
+            alone,
+        ] {
+            for control in
+                [Control::Load(5.0), Control::HalfWidth(0.1), Control::PeakPressure(0.01)]
+            {
+                let error = contact.solve(control).map(|found| found.hull()).unwrap_err();
+                let none = match error {
+                    ContactError::Solve(SolveError::DomainTooShort { carried, .. }) => carried,
+                    ContactError::Solve(SolveError::HalfWidthTooLarge { half_width, .. }) => {
+                        half_width
+                    }
+                    ContactError::Solve(SolveError::PeakTooHigh { found, .. }) => found,
+                    error => panic!("{from} {control:?}: {error}"),
+                };
+                assert_eq!(none, 0.0, "{from} {control:?}: {error}");
+                assert!(error.to_string().contains("touch first at their end"), "{error}");
+            }
+        }
+    }
 }

@@ -3,7 +3,7 @@
 
 use crate::common::Shares;
 use linecontact::profile::{Ellipse, Outline, Placed, Placement};
-use linecontact::{Contact, ContactError, Control, SolveError};
+use linecontact::{Contact, ContactError, Control, Flat, SolveError};
 
 /// Lands or a plane, with grooves between flat parts, and a roller.
 #[derive(Debug)]
@@ -121,4 +121,35 @@ fn lands_with_slits() {
 #[test]
 fn planes_with_scratches() {
     check(true, &[549, 570]);
+}
+
+/// A crown of radius R on either side of a groove with upright walls: each of the two contacts is
+/// held at its wall, and under a load F of its own is `w = sqrt(8 F R/(3 κ))` wide where that is
+/// far less than the groove. The wall's slope tells nothing of the crown's height, nor does the
+/// floor of the groove.
+#[test]
+fn light_loads_beside_upright_walls() {
+    for (groove, depth) in [(1.0, 0.5), (5.0, 0.5), (0.2, 1e-3)] {
+        let half = Outline::from([0.0, depth]).line(groove).wall(-depth).arc(100.0, 30.0);
+        let body = half.mirrored().build().unwrap();
+        let contact = Contact::new(&Flat, &body).unwrap().kappa(1.0);
+        for power in 6..=14 {
+            let load = 10f64.powi(-power);
+            let due = (8.0 * 0.5 * load * 100.0 / 3.0).sqrt();
+            if due > 0.02 * groove {
+                continue;
+            }
+            let solution = contact.solve(Control::Load(load));
+            let solution = solution.unwrap_or_else(|error| panic!("{groove} {load}: {error}"));
+            let &[one, other] = solution.intervals() else { panic!("{groove} {load}: {solution}") };
+            for on in [one, other] {
+                let width = 2.0 * on.half_width();
+                let rounding = 4.0 * f64::EPSILON * groove / due;
+                assert!(
+                    (width / due - 1.0).abs() < 0.5 * due / groove + rounding,
+                    "{load}: {on:?}"
+                );
+            }
+        }
+    }
 }

@@ -391,6 +391,30 @@ fn bad_points_are_named_by_their_row() {
     assert!(matches!(error, Err(SplineError::Overflow { row: 50, .. })), "{error:?}");
 }
 
+/// Exact points of a circle, a quartic and a wave at any x, far from even: a cubic through the
+/// neighbours is off where they are far apart, and the curve of the fifth degree shows why.
+#[test]
+fn exact_points_at_uneven_places_are_no_outliers() {
+    let quartic = |x: f64| 0.05 * x * x + 0.025 * x.powi(4);
+    let wave = |x: f64| 0.05 * x * x - 1e-3 * (6.0 * x).cos();
+    let (mut count, mut refused) = (0, 0);
+    for seed in 1..=60 {
+        for points in [20, 100, 1000] {
+            for curve in [&circle(10.0) as &dyn Fn(f64) -> f64, &quartic, &wave] {
+                let mut random = Shares(seed);
+                let mut places: Vec<f64> = (0..points).map(|_| random.between(-1.0, 1.0)).collect();
+                places.sort_by(f64::total_cmp);
+                places.dedup_by(|x, before| *x - *before < 1e-5);
+                let exact: Vec<_> = places.into_iter().map(|x| [x, curve(x)]).collect();
+                count += 1;
+                refused += usize::from(Spline::through(&exact).is_err());
+            }
+        }
+    }
+    println!("{refused} of {count} refused");
+    assert!(50 * refused <= count, "{refused} of {count}");
+}
+
 #[test]
 fn slips_of_the_measurement_are_found_and_nothing_else() {
     let noise = 1e-4;

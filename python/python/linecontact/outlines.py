@@ -79,7 +79,8 @@ class Outline:
     def wall(self, height: float) -> Outline:
         """Draws an upright wall, up by a positive height or down by a negative one, along x 1.5e-8 of it, from the next segment.
 
-        The next segment is level, but after a `corner`.
+        The next segment is level, but after a `corner`. A body that is to turn needs a slanted wall, by
+        `corner`, `line` and another `corner`.
         """
         return self._with("wall", height=height)
 

@@ -262,7 +262,10 @@ pub(super) fn convex_stretches<T: Real>(nodes: &mut Vec<Node<T>>, rates: &mut Ve
         let around = &rates[i.saturating_sub(IN_A_ROW)..(i + IN_A_ROW + 1).min(rates.len())];
         if !nodes[i].is_void && !nodes[i].is_open && around.iter().all(|rate| rate.is_finite()) {
             let width = nodes[i + 1].x - nodes[i].x;
-            nodes[i].after = nodes[i].after.min(T::of(0.5) * rates[i] * width * width);
+            // A straight span tells nothing of those beside it.
+            let bent = around.iter().copied().filter(|rate| !rate.is_zero());
+            let least = bent.fold(rates[i], T::min);
+            nodes[i].after = nodes[i].after.min(T::of(0.5) * least * width * width);
         }
     }
 }

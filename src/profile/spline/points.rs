@@ -191,7 +191,7 @@ fn check_outliers<T: Real>(points: &[[T; 2]], most: T, rows: usize) -> Result<()
         let far = off > floor && off > most * T::of(BY_MEDIAN) * everywhere;
         let is_worst =
             far && off > most * scale_at(i) && worst.is_none_or(|(_, worst)| off > worst);
-        if is_worst && explains(points, i) {
+        if is_worst && explains(points, i) && stays(points, i) {
             worst = Some((i, off));
         }
     }
@@ -199,7 +199,7 @@ fn check_outliers<T: Real>(points: &[[T; 2]], most: T, rows: usize) -> Result<()
     let deviations = off / scale_at(i).max(floor / most);
     let i = culprit(points, i);
     let ([x, _], [_, y]) = (points[i % rows], points[i]);
-    let (expected, _) = foretold(points, i);
+    let (expected, _) = foretold(5, points, i);
     Err(SplineError::Outlier { row: i % rows + 1, x, y, expected, deviations })
 }
 
@@ -217,6 +217,13 @@ fn explains<T: Real>(points: &[[T; 2]], i: usize) -> bool {
     (2..5).all(|row| left(row) <= T::of(UNEXPLAINED) * deviation(near, own).abs())
 }
 
+/// Tells whether a point is as far off the curve of the fifth degree through six neighbours: that
+/// of exact points follows their own curve far closer than a cubic, wherever x is uneven.
+fn stays<T: Real>(points: &[[T; 2]], i: usize) -> bool {
+    let [cubic, quintic] = [5, 7].map(|row| (points[i][1] - foretold(row, points, i).0).abs());
+    quintic >= T::of(UNEXPLAINED) * cubic
+}
+
 /// Returns the faulty point near one that is off: the point without which the others are smoothest.
 /// (At an end the same five points predict three of them, and all three are equally far off.)
 fn culprit<T: Real>(points: &[[T; 2]], i: usize) -> usize {
@@ -232,16 +239,16 @@ fn culprit<T: Real>(points: &[[T; 2]], i: usize) -> usize {
 /// Returns the distance of a point from the cubic through its neighbours, scaled to the error of a
 /// single height where all heights have equal errors.
 fn deviation<T: Real>(points: &[[T; 2]], i: usize) -> T {
-    let (expected, weights) = foretold(points, i);
+    let (expected, weights) = foretold(5, points, i);
     (points[i][1] - expected) / (T::one() + weights).sqrt()
 }
 
-/// Returns the height at a point by the cubic through the four nearest others of a row of five, and
-/// the sum of the squares of their weights.
-fn foretold<T: Real>(points: &[[T; 2]], i: usize) -> (T, T) {
-    let start = i.saturating_sub(2).min(points.len() - 5);
+/// Returns the height at a point by the polynomial through the nearest others of a row of points,
+/// and the sum of the squares of their weights.
+fn foretold<T: Real>(row: usize, points: &[[T; 2]], i: usize) -> (T, T) {
+    let start = i.saturating_sub(row / 2).min(points.len() - row);
     let x = points[i][0];
-    let neighbours = || (start..start + 5).filter(|&j| j != i);
+    let neighbours = || (start..start + row).filter(|&j| j != i);
     let weight = |j: usize| {
         let factor = |m: usize| (x - points[m][0]) / (points[j][0] - points[m][0]);
         neighbours().filter(|&m| m != j).fold(T::one(), |product, m| product * factor(m))

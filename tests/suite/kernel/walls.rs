@@ -1,7 +1,9 @@
 //! Lands between upright walls, one in each period, and rows of them on a layer.
 
 use linecontact::profile::{Outline, Placement};
-use linecontact::{Base, Contact, Control, Flat, Layer, Material, PlaneState};
+use linecontact::{
+    Base, Contact, ContactError, Control, Flat, Layer, Material, PlaneState, SolveError, Solver,
+};
 use std::f64::consts::PI;
 
 /// A land drawn between walls at round places is a periodic punch, wherever it lies in the period:
@@ -74,5 +76,53 @@ fn lands_on_a_layer_wherever_they_are_drawn() {
                 assert!((got - due).abs() < 1e-8, "{at:?}, {load}: {got} for {due}");
             }
         }
+    }
+}
+
+/// A stamp with two lands of unequal height on rubber, of which one touches and is held at its
+/// wall: the bend is found in as many solves as any, from nothing and from the last load. (As one
+/// interval, over the groove, it was not held, and led astray.)
+#[test]
+fn a_land_beside_one_that_does_not_touch() {
+    let steel = Material::elastic(210e3, 0.3);
+    let base = Base::HalfPlane(steel);
+    let rubber = Layer { material: Material::elastic(5.0, 0.45), thickness: 4.0, base };
+    let half =
+        |depth: f64| Outline::from([0.0, 0.3]).line(0.5).wall(-depth).line(1.0).arc(50.0, 3.0);
+    let body = half(0.3).left(half(0.25)).build().unwrap();
+    let alone = Outline::from([0.5, 0.3]).wall(-0.3).line(1.0).arc(50.0, 3.0).build().unwrap();
+    let on = |body| Contact::new(&Flat, body).unwrap().materials(steel, rubber, PlaneState::Strain);
+    let (both, alone) = (on(&body), on(&alone));
+    let mut solver = Solver::new();
+    for i in 0..12 {
+        let load = 0.003 * 1.5f64.powi(i);
+        let cold = both.solve(Control::Load(load)).unwrap_or_else(|e| panic!("{load}: {e}"));
+        let warm = solver.solve(&both, Control::Load(load)).unwrap();
+        for (solution, samples) in [(&cold, cold.cost().samples), (&warm, warm.cost().samples)] {
+            assert!(samples < 8_000, "{load}: {samples}");
+            let one = alone.solve(Control::Load(load)).unwrap();
+            assert!(
+                (solution.a() - one.a()).abs() < 1e-9 && solution.intervals().len() == 1,
+                "{load}"
+            );
+        }
+    }
+}
+
+/// No width of less than a groove, and no peak, is that of any load.
+#[test]
+fn a_groove_on_a_layer_has_widths_in_no_load() {
+    let steel = Material::elastic(210e3, 0.3);
+    let base = Base::HalfPlane(steel);
+    let rubber = Layer { material: Material::elastic(5.0, 0.48), thickness: 10.0, base };
+    let half = Outline::from([0.0, 0.5]).line(1.0).wall(-0.5).arc(100.0, 30.0);
+    let body = half.mirrored().build().unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().materials(rubber, steel, PlaneState::Strain);
+    for control in [Control::HalfWidth(0.5), Control::PeakPressure(2.0)] {
+        let error = contact.solve(control).map(|found| found.hull()).unwrap_err();
+        let ContactError::Solve(SolveError::InJump { .. } | SolveError::NoPeak { .. }) = error
+        else {
+            panic!("{control:?}: {error}");
+        };
     }
 }
