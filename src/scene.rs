@@ -200,7 +200,8 @@ fn agreeing<'de, D: Deserializer<'de>>(file: D) -> Result<Units, D::Error> {
             let is_of = |of: [f64; 2]| of == powers || (powers[0] == -1.0 && of[0] >= 0.0);
             let of = UNITS.iter().filter(|one| is_of([one.2, one.3])).map(|one| one.0);
             let says = format!("{label} is no unit of {quantity}: known are ");
-            return Err(de::Error::custom(says + &of.collect::<Vec<_>>().join(", ")));
+            let prefixed = " (m, N and Pa with a prefix, too, such as mm)";
+            return Err(de::Error::custom(says + &of.collect::<Vec<_>>().join(", ") + prefixed));
         }
     }
     // Other powers of ten, or inches among them, are off by far more.

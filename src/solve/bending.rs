@@ -279,9 +279,7 @@ impl<'b, T: Real> Bending<'_, '_, 'b, T> {
                 }
             };
             let Some(Correction { spreads, residuals }) = self.correct(&solved)? else { break };
-            let free = self.contact.edges.map(|edge| edge.is_free());
             // Corners that hold a land are found only among any number of contacts.
-            self.work.workspace.is_held = solved.found.free != free;
             self.may_be_one &= !self.work.workspace.is_held;
             let residual = residuals[0];
             if self.has_converged && spreads.len() != self.target.len() {

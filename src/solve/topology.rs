@@ -43,7 +43,10 @@ pub(super) fn find<T: Real>(
     contact.checked_edges()?;
     work.workspace.look_for_features(&contact.gap);
     let mut search = Search::new(contact, conditions, work);
-    settle(&mut search).or_else(|error| search.explain(error))
+    let found = settle(&mut search).or_else(|error| search.explain(error))?;
+    let holds = |side: Side| !found.free[side] && contact.edges[side] == Edge::Free;
+    work.workspace.is_held = Side::BOTH.into_iter().any(holds);
+    Ok(found)
 }
 
 /// Search for the contacts.
@@ -105,7 +108,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         if self.contact.single_interval {
             return Ok(self.start_of_one());
         }
-        if self.work.workspace.last.len() > 1 {
+        if self.last_is_set() {
             return self.start_of_several();
         }
         let start = self.start_of_one();
@@ -152,7 +155,14 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
             last.clear();
         }
         newton.on.clone_from(last);
-        Ok(if last.len() > 1 { Start::Last } else { Start::ActiveSet })
+        Ok(if self.last_is_set() { Start::Last } else { Start::ActiveSet })
+    }
+
+    /// Tells whether the contacts last found are sought as a set: several, or one that a corner
+    /// inside the bodies holds.
+    fn last_is_set(&self) -> bool {
+        let Workspace { last, is_held, .. } = &*self.work.workspace;
+        last.len() > 1 || *is_held && !last.is_empty() && self.may_be_several()
     }
 
     /// Moves the contacts from a start until they are in equilibrium.
@@ -179,8 +189,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         match self.start {
             Start::Attempt | Start::ActiveSet => false,
             Start::Last => {
-                let is_one = self.work.workspace.last.len() == 1 && self.end.is_none();
-                self.contact.single_interval || is_one
+                self.contact.single_interval || !self.last_is_set() && self.end.is_none()
             }
             _ => true,
         }

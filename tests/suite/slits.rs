@@ -3,7 +3,9 @@
 
 use crate::common::Shares;
 use linecontact::profile::{Ellipse, Outline, Placed, Placement};
-use linecontact::{Contact, ContactError, Control, Flat, SolveError};
+use linecontact::{
+    Attempt, Contact, ContactError, Control, Flat, Outcome, SolveError, Solver, Start,
+};
 
 /// Lands or a plane, with grooves between flat parts, and a roller.
 #[derive(Debug)]
@@ -151,5 +153,24 @@ fn light_loads_beside_upright_walls() {
                 );
             }
         }
+    }
+}
+
+/// Of two lands of unequal height one touches, held at its wall: for the next load it is a start as
+/// it is, and nothing else is tried.
+#[test]
+fn a_land_held_at_its_wall_is_the_start_of_the_next_load() {
+    let half =
+        |depth: f64| Outline::from([0.0, 0.3]).line(0.5).wall(-depth).line(1.0).arc(50.0, 3.0);
+    let body = half(0.3).left(half(0.25)).build().unwrap();
+    let contact = Contact::new(&Flat, &body).unwrap().kappa(1.0);
+    let mut solver = Solver::new();
+    solver.solve(&contact, Control::Load(5e-3)).unwrap();
+    for load in [5.5e-3, 6e-3, 7e-3] {
+        let due = contact.solve(Control::Load(load)).unwrap().hull();
+        let next = solver.solve(&contact, Control::Load(load)).unwrap();
+        let (from, outcome) = (Start::Last, Outcome::Passed);
+        assert_eq!(next.report().attempts(), [Attempt { start: from, outcome }], "{load}");
+        assert!((next.hull().right - due.right).abs() < 1e-12 && next.hull().left == due.left);
     }
 }

@@ -23,6 +23,8 @@ pub(crate) struct Workspace<T> {
     pub(super) fields: ExteriorFields<T>,
     /// Contacts last found, and those from which Newton's method started.
     pub(super) last: Vec<Interval<T>>,
+    /// Flag: a corner inside the bodies holds the first or the last of them.
+    pub(in super::super) is_held: bool,
     pub(super) before: Vec<Interval<T>>,
     pub(super) passed: Passed<T>,
     /// Spans of tension in the solution checked last.
@@ -36,8 +38,6 @@ pub(crate) struct Workspace<T> {
     /// panels have samples.
     pub(in super::super) spreads: Vec<Spread<T>>,
     pub(in super::super) bent: Option<GapId<T>>,
-    /// Flag: corners of these bodies hold a contact.
-    pub(in super::super) is_held: bool,
 }
 
 impl<T: Real> Workspace<T> {
@@ -49,6 +49,7 @@ impl<T: Real> Workspace<T> {
             newton: NewtonSeveral::new(),
             fields: ExteriorFields::new(),
             last: Vec::new(),
+            is_held: false,
             before: Vec::new(),
             passed: Passed::new(),
             tension_spans: TensionSpans::new(),
@@ -57,7 +58,6 @@ impl<T: Real> Workspace<T> {
             report: Report::new(),
             spreads: Vec::new(),
             bent: None,
-            is_held: false,
         }
     }
 
