@@ -151,7 +151,7 @@ impl<'s, 'w, 'b, T: Real> Search<'s, 'w, 'b, T> {
         }
         let Workspace { last, newton, .. } = &mut *self.work.workspace;
         let change = self.conditions.load() / self.conditions.kappa / newton.load - T::one();
-        if T::count(last.len()) * change * change > T::of(MAX_CHANGE) {
+        if last.len() > 1 && T::count(last.len()) * change * change > T::of(MAX_CHANGE) {
             last.clear();
         }
         newton.on.clone_from(last);
