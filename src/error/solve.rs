@@ -30,7 +30,7 @@ pub enum SolveError<T: Real> {
     /// The bodies of a row touch all over a period, or so nearly that the gap left is not solved.
     #[error(
         "the bodies touch all over the period, or their widest gap is below 2 % of a contact: {}complete contact begins \
-         at about the load {}; ask for less, or move one of two like bodies",
+         at about {}; lower the load, or move one of two like bodies",
         if load == complete { String::new() } else { format!("the load is {}, and ", six(*load)) }, six(*complete)
     )]
     CompleteContact {

@@ -5,7 +5,7 @@
 //! on the bodies alone: it is found on panels of its own, whatever the control and the method.
 
 use super::Contact;
-use super::edges::Conditions;
+use super::edges::{Conditions, Given};
 use super::equations::Equations;
 use crate::gap::Cost;
 use crate::quadrature::{Engine, LoadCase, Panels};
@@ -40,6 +40,14 @@ impl<T: Real> Capacity<T> {
     pub fn nothing(end: T) -> Self {
         let zero = T::zero();
         Self { half_width: zero, end, load: zero, peak: zero }
+    }
+
+    /// Returns the error for a load or a width beyond the capacity.
+    pub fn exceeded(&self, conditions: &Conditions<T>) -> ContactError<T> {
+        match conditions.given {
+            Given::HalfWidth(wanted) => self.too_wide(wanted),
+            _ => self.too_short(conditions.load()),
+        }
     }
 
     /// Returns the error for a load beyond the capacity.

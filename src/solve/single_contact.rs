@@ -97,9 +97,19 @@ impl<T: Real> Single<'_, '_, T> {
             let near = self.start().centre();
             return Err(SolveError::NoEquilibrium { half_width, near }.into());
         }
+        let rounding = T::epsilon() * (range[1] - range[0]);
         // From another start, or on a far wider span, the way to the contact may be blocked.
         for from in [Elsewhere::Low, Elsewhere::FirstContact, Elsewhere::Leaning] {
-            let Some(start) = self.elsewhere(from)? else { continue };
+            let start = self.elsewhere(from);
+            // Next to an end at x = 0 a start may be as narrow as any number.
+            let is_narrow = match &start {
+                Ok(start) => start.is_some_and(|on| on.half_width() <= rounding),
+                Err(error) => matches!(error, ContactError::Solve(SolveError::Overflow { .. })),
+            };
+            if let Some(error) = if is_narrow { self.nothing() } else { None } {
+                return Err(error);
+            }
+            let Some(start) = start? else { continue };
             self.start = Some(start);
             if let Some(converged) = self.by_newton(None).map_err(|error| self.because(error))? {
                 return self.contact_of(converged);
@@ -258,8 +268,8 @@ impl<T: Real> Single<'_, '_, T> {
         Ok(best)
     }
 
-    /// Tells whether the bodies bear the load or width; false if that is unknown. Fails if it is
-    /// too large.
+    /// Tells whether the bodies bear the load or width; false if that is unknown, or if they touch
+    /// first at an end: another contact may be asked for. Fails if it is too large.
     fn may_bear(&mut self) -> Fallible<T, bool> {
         // One of several contacts bears part of the load, and bodies that turn another one.
         if !self.is_alone || self.conditions.at().is_some() {
@@ -267,7 +277,8 @@ impl<T: Real> Single<'_, '_, T> {
         }
         let Self { contact, conditions, cost, .. } = self;
         let ends = contact.gap.range().into();
-        let Some((_, bears)) = capacity(contact, conditions, ends, cost) else { return Ok(false) };
+        let bears = capacity(contact, conditions, ends, cost).map(|(_, bears)| bears);
+        let Some(bears) = bears.filter(|bears| !bears.load.is_zero()) else { return Ok(false) };
         let room = T::one() + T::of(8.0) * T::epsilon();
         match conditions.given {
             Given::Load(load) if load > bears.load => Err(bears.too_short(load)),
@@ -276,6 +287,16 @@ impl<T: Real> Single<'_, '_, T> {
             }
             _ => Ok(true),
         }
+    }
+
+    /// Returns the error of bodies that touch first at an end, if they do.
+    fn nothing(&mut self) -> Option<ContactError<T>> {
+        let Self { contact, conditions, cost, .. } = self;
+        let ends = contact.gap.range().into();
+        let turns = conditions.at().is_some();
+        let bears = if turns { None } else { capacity(contact, conditions, ends, cost) };
+        let nothing = bears.filter(|(_, bears)| bears.load.is_zero());
+        nothing.map(|(_, bears)| bears.exceeded(conditions))
     }
 
     /// Replaces an error of the search by the exceeded capacity that caused it, if any.

@@ -87,7 +87,7 @@ impl<T: Real> Search<'_, '_, '_, T> {
         };
         let error = match borne {
             Some(Ok(found)) => return Ok(found),
-            Some(Err(widest)) => widest.too_short(conditions.load()),
+            Some(Err(widest)) => widest.exceeded(&conditions),
             None => error,
         };
         Err(self.nearest(is_at_end).unwrap_or(error))
