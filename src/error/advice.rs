@@ -42,13 +42,13 @@ pub(super) fn borne<T: Real>(end: T, [carried, load]: [T; 2], half_width: T, pea
     )
 }
 
-/// Returns what the widest contact of bodies is, given in words, or that there is none.
-pub(super) fn widest<T: Real>(half_width: T, end: T, widest: impl FnOnce() -> String) -> String {
+/// Describes the widest contact of bodies in the given words, or says that there is none.
+pub(super) fn widest<T: Real>(half_width: T, end: T, words: impl FnOnce() -> String) -> String {
     match half_width.is_zero() {
         true => {
             format!("the bodies touch first at their end x = {}, where none has room", six(end))
         }
-        false => widest(),
+        false => words(),
     }
 }
 

@@ -148,7 +148,7 @@ impl<T: Real> Pinned<'_, T> {
                 Side::Left => left + width,
                 Side::Right => right - width,
             };
-            let at_narrow = self.rough_shift(on(narrow)).filter(|shift| shift.is_finite())?;
+            let at_narrow = self.rough_shift(on(narrow))?;
             if (at_narrow > T::zero()) != (at_wide > T::zero()) {
                 let [one, other] = [(narrow, at_narrow), (wide, at_wide)];
                 let [lo, hi] = if side == Side::Left { [one, other] } else { [other, one] };
@@ -171,7 +171,9 @@ impl<T: Real> Pinned<'_, T> {
         let rough = rough.filter(|rough| {
             rough.shift().abs() > (T::of(SURE_IMBALANCE) + T::of(16.0) * rough.error) * rough.size
         });
-        rough.map(|rough| rough.shift()).or_else(|| self.shift(on))
+        let shift = rough.map(|rough| rough.shift()).or_else(|| self.shift(on));
+        // NaN has no sign; next to an upright end an infinite shift has one.
+        shift.filter(|shift| shift.partial_cmp(shift).is_some())
     }
 
     /// Returns the shift from full samples.

@@ -584,14 +584,18 @@ fn a_half_drawing_touches_first_at_its_end() {
             dy: 10.0 * k.sin(),
         });
         let alone = Contact::new(&Flat, &body).unwrap().single_interval(true);
-        for contact in [
+        for (is_far, contact) in [
+            Contact::new(&Flat, &shifted).unwrap(),
             Contact::new(&Flat, &body).unwrap(),
             Contact::new(&Flat, &mirrored).unwrap(),
-            Contact::new(&Flat, &shifted).unwrap(),
             Contact::new(&Flat, &arc).unwrap(),
             Contact::new(&plate, &roller).unwrap(),
             alone,
-        ] {
+        ]
+        .into_iter()
+        .enumerate()
+        .map(|(i, contact)| (i == 0, contact))
+        {
             for control in
                 [Control::Load(5.0), Control::HalfWidth(0.1), Control::PeakPressure(0.01)]
             {
@@ -603,7 +607,7 @@ fn a_half_drawing_touches_first_at_its_end() {
                     }
                     ContactError::Solve(SolveError::PeakTooHigh { found, .. }) => found,
                     // Far from x = 0 the search does not get so near to the end.
-                    ContactError::Solve(SolveError::NoFirstContact { .. }) => continue,
+                    ContactError::Solve(SolveError::NoFirstContact { .. }) if is_far => continue,
                     error => panic!("{from} {control:?}: {error}"),
                 };
                 assert_eq!(none, 0.0, "{from} {control:?}: {error}");

@@ -217,8 +217,8 @@ fn explains<T: Real>(points: &[[T; 2]], i: usize) -> bool {
     (2..5).all(|row| left(row) <= T::of(UNEXPLAINED) * deviation(near, own).abs())
 }
 
-/// Tells whether a point is as far off the curve of the fifth degree through six neighbours: that
-/// of exact points follows their own curve far closer than a cubic, wherever x is uneven.
+/// Tells whether a point is about as far off the curve of the fifth degree through six neighbours.
+/// Exact points lie far closer to it than to a cubic, however uneven their places are.
 fn stays<T: Real>(points: &[[T; 2]], i: usize) -> bool {
     let [cubic, quintic] = [5, 7].map(|row| (points[i][1] - foretold(row, points, i).0).abs());
     quintic >= T::of(UNEXPLAINED) * cubic
